@@ -46,11 +46,13 @@ impl Weights {
     }
 
     /// A random item; there is at least one. O(1) on average.
+    #[inline]
     pub fn pick(&self, rng: &mut Rng) -> u32 {
         self.pick_within(rng).0
     }
 
     /// A random item, and a place within its weight, from 0 up to the weight.
+    #[inline]
     pub fn pick_within(&self, rng: &mut Rng) -> (u32, f64) {
         let (share, last) = (rng.unit(), self.ends.len() - 1);
         let mut item = self.guide[(share * self.ends.len() as f64) as usize] as usize;

@@ -8,6 +8,7 @@ use crate::kdrt::{blocks::Block, conquer::SeamCells};
 use crate::math::square;
 use crate::plane::{CellGrid, List, Quadtree, darts, rect::Rect};
 use crate::rng::Rng;
+use crate::simd::{Lanes, Work, run};
 
 /// The filling of the blocks of a window, one after the other.
 pub struct Filling<'a> {
@@ -27,40 +28,16 @@ impl<'a> Filling<'a> {
         Self { footprints, seams, reach, quadtree: Quadtree::empty(), near: List::default(), open: Vec::new() }
     }
 
-    /// [`Filling::fill`] for any vector instructions.
-    #[inline(always)]
-    pub fn fill_portable(
+    /// Makes the samples of the grid maximal in `block` and shows each new one to `accepted`, with the grid as it is
+    /// then. `rng` makes the random numbers of the block.
+    pub fn fill(
         &mut self,
         grid: &mut CellGrid,
         block: &Block,
         rng: impl Fn() -> Rng,
         accepted: &mut impl FnMut(&CellGrid, [i32; 2]),
     ) {
-        let Some(marked) = self.seams.marked_in(&block.cells) else { return };
-        let mut rng = rng();
-        let mut bitmap = Bitmap::of_seams(self.footprints, grid, &self.seams, block);
-        let around = grid.points_of(&marked).grown(self.reach);
-        grid.collect(&marked, &around, &mut self.near);
-        bitmap.cover_all(&self.near);
-        bitmap.list(&marked, &mut self.open);
-        if grid.has_obstacles() {
-            self.open.retain(|&place| {
-                let (cell, voxel) = bitmap.voxel(grid, place);
-                !grid.is_hidden(cell, &voxel)
-            });
-        }
-
-        let width = Bitmap::widest(grid);
-        self.throw(grid, &mut bitmap, width, &mut rng, accepted);
-        if self.open.is_empty() {
-            return;
-        }
-        self.quadtree.restart_cut(grid, width);
-        for &place in &self.open {
-            let (cell, voxel) = bitmap.voxel(grid, place);
-            self.quadtree.add_sixteenths(grid, &self.near, cell, voxel);
-        }
-        self.quadtree.fill(grid, &mut rng, accepted);
+        run(grid.vectors(), Fill { filling: self, grid, block, rng, accepted });
     }
 
     /// The darts of the first level: at voxels of the bitmap, picked from the open ones.
@@ -85,6 +62,50 @@ impl<'a> Filling<'a> {
                 misses = darts(self.open.len());
             }
         }
+    }
+}
+
+/// [`Filling::fill`] compiled for each level, so that the small functions over `Lanes` (`plane/near.rs`) are inlined, and
+/// its loops over bits and footprints use these instructions.
+struct Fill<'a, 'f, R, A> {
+    filling: &'a mut Filling<'f>,
+    grid: &'a mut CellGrid,
+    block: &'a Block,
+    rng: R,
+    accepted: &'a mut A,
+}
+
+impl<R: Fn() -> Rng, A: FnMut(&CellGrid, [i32; 2])> Work for Fill<'_, '_, R, A> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) {
+        let Self { filling, grid, block, rng, accepted } = self;
+        let Some(marked) = filling.seams.marked_in(&block.cells) else { return };
+        let mut rng = rng();
+        let mut bitmap = Bitmap::of_seams(filling.footprints, grid, &filling.seams, block);
+        let around = grid.points_of(&marked).grown(filling.reach);
+        grid.collect(&marked, &around, &mut filling.near);
+        bitmap.cover_all(&filling.near);
+        bitmap.list(&marked, &mut filling.open);
+        if grid.has_obstacles() {
+            filling.open.retain(|&place| {
+                let (cell, voxel) = bitmap.voxel(grid, place);
+                !grid.is_hidden(cell, &voxel)
+            });
+        }
+
+        let width = Bitmap::widest(grid);
+        filling.throw(grid, &mut bitmap, width, &mut rng, accepted);
+        if filling.open.is_empty() {
+            return;
+        }
+        filling.quadtree.restart_cut(grid, width);
+        for &place in &filling.open {
+            let (cell, voxel) = bitmap.voxel(grid, place);
+            filling.quadtree.add_sixteenths(grid, &filling.near, cell, voxel);
+        }
+        filling.quadtree.fill(grid, &mut rng, accepted);
     }
 }
 

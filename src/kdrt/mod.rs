@@ -29,8 +29,6 @@ mod stack;
 #[doc(hidden)]
 pub mod stages;
 mod tiling;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 pub use crate::order::{DEFAULT_QUOTIENT, QUOTIENTS};
 pub use count::{CountOptions, CountReport, sample_count};

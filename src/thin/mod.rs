@@ -14,8 +14,6 @@
 
 mod selecting;
 mod tree;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 use crate::check;
 use crate::error::{Error, Result};

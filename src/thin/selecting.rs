@@ -1,14 +1,13 @@
 //! The loop that selects, by either rule.
 
 use super::tree::{Nearer, Tree};
-use super::vectors::advance;
 use super::{Options, Selection};
 use crate::error::Result;
 use crate::job::Job;
 use crate::math::rounded_down;
 use crate::order::Order;
 use crate::rng::{Draw, Rng};
-use crate::simd::Level;
+use crate::simd::{Lanes, Level, Work, run};
 
 /// The points that are selected between two reports of progress.
 const REPORTED: usize = 1024;
@@ -35,7 +34,7 @@ pub(super) fn select<const D: usize>(
         selecting.select(Rng::at(options.seed, Draw::Thin, &[]).below(positions.len() as u64) as u32, f64::INFINITY);
     }
     let job = job.part(TREE_SHARE, 1.0);
-    while advance(level, &mut selecting, &end, REPORTED) {
+    while run(level, Advance { selecting: &mut selecting, end: &end, count: REPORTED }) {
         job.report(if by_radius { selecting.share_of_indices() } else { selecting.share_of(&end) })?;
     }
     if !by_radius && end.squared == 0.0 {
@@ -76,20 +75,6 @@ impl<const D: usize> Selecting<'_, D> {
         self.tree.select(&self.positions[index as usize].map(f64::from));
     }
 
-    /// Selects up to `count` more points, the farthest each time. Returns whether there may be more. Points that
-    /// coincide with selected ones are not selected.
-    #[inline(always)]
-    pub fn advance(&mut self, end: &End, count: usize) -> bool {
-        for _ in 0..count {
-            let farthest = self.tree.farthest();
-            if farthest.squared < end.squared || farthest.squared == 0.0 || self.indices.len() == end.count {
-                return false;
-            }
-            self.select(farthest.index, farthest.squared);
-        }
-        true
-    }
-
     /// Selects points up to `count` of the remaining ones, which coincide with selected ones: the lowest indices first.
     fn select_coincident(&mut self, count: usize) {
         let mut is_selected = vec![false; self.positions.len()];
@@ -109,6 +94,31 @@ impl<const D: usize> Selecting<'_, D> {
     fn share_of(&self, end: &End) -> f64 {
         let by_count = self.indices.len() as f64 / end.count as f64;
         self.squared.last().map_or(0.0, |&squared| by_count.max(end.squared / squared).min(1.0))
+    }
+}
+
+/// Selects up to `count` more points, the farthest each time. Returns true if there may be more. Points that coincide
+/// with selected ones are not selected.
+struct Advance<'a, 'b, const D: usize> {
+    selecting: &'a mut Selecting<'b, D>,
+    end: &'a End,
+    count: usize,
+}
+
+impl<const D: usize> Work for Advance<'_, '_, D> {
+    type Out = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) -> bool {
+        let Self { selecting, end, count } = self;
+        for _ in 0..count {
+            let farthest = selecting.tree.farthest();
+            if farthest.squared < end.squared || farthest.squared == 0.0 || selecting.indices.len() == end.count {
+                return false;
+            }
+            selecting.select(farthest.index, farthest.squared);
+        }
+        true
     }
 }
 
@@ -132,6 +142,7 @@ fn rank(squared: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::Context;
 
     #[test]
     fn a_least_square_is_the_border_of_roots() {
@@ -151,5 +162,26 @@ mod tests {
             assert!(f64::from(rank) <= squared.sqrt());
             assert!(rank == f32::INFINITY || f64::from(rank.next_up()) > squared.sqrt(), "{squared:e}");
         }
+    }
+
+    fn check<const D: usize>(count: usize) {
+        let mut rng = Rng::at(D as u64, Draw::Probe, &[]);
+        // A quarter of them on a lattice, with many ties.
+        let cloud: Vec<[f32; D]> = (0..count)
+            .map(|i| [(); D].map(|()| if i % 4 == 0 { rng.below(9) as f32 / 8.0 } else { rng.unit() as f32 }))
+            .collect();
+        let context = Context::new(1).unwrap();
+        for options in [Options::by_radius(0.05), Options::progressive().seed(3)] {
+            let select = |level| context.run(None, |job| select(job, level, &options, &cloud)).unwrap();
+            let expected: Selection = select(Level::Portable);
+            assert!(expected.indices.len() > 200);
+            assert!(Level::available().into_iter().all(|level| select(level) == expected), "{options:?}");
+        }
+    }
+
+    #[test]
+    fn all_levels_select_the_same() {
+        check::<2>(5000);
+        check::<3>(3000);
     }
 }

@@ -11,7 +11,6 @@ use crate::dcr::law::Constraints;
 use crate::dcr::torus::{Torus, TorusPoint, must_flip};
 use crate::dcr::uniform::rings::{Edge, Patch, RingList, Rings, triangulate_by_tiles};
 use crate::dcr::uniform::stars::{Gathered, Stars, Visitor};
-use crate::dcr::uniform::vectors::gather_in_stars;
 use crate::error::Result;
 use crate::geometry::{Delaunay, circumradius_squared};
 use crate::job::{Job, chunks};
@@ -96,7 +95,7 @@ impl FlipMesh {
         visitor: &mut impl Visitor,
     ) {
         let stars = Stars { rings: &self.rings, torus: &self.torus, places, constraints };
-        gather_in_stars(level, &stars, points, visitor);
+        stars.gather(level, points, visitor);
     }
 
     /// Makes the mesh the Delaunay triangulation of these points; false if a triangle has turned over.

@@ -18,8 +18,6 @@ mod classes;
 mod flip_mesh;
 mod rings;
 mod stars;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 pub use classes::{ClassReport, relax_classes};
 
@@ -36,8 +34,7 @@ use crate::dcr::torus::{
 use crate::dcr::uniform::cells::VerletCells;
 use crate::dcr::uniform::flip_mesh::FlipMesh;
 use crate::dcr::uniform::rings::{Edge, Rings};
-use crate::dcr::uniform::stars::{Gathered, LANES, Visitor};
-use crate::dcr::uniform::vectors::gather_in_cells;
+use crate::dcr::uniform::stars::{EIGHT, Gathered, Visitor};
 use crate::error::Result;
 use crate::geometry::Delaunay;
 use crate::job::{Job, chunks};
@@ -399,7 +396,7 @@ impl Step<'_> {
                 NeighbourSearch::Nearest(cells) => {
                     let points = points.start..points.end.min(count).max(points.start);
                     let mut forces = Vec::with_capacity(points.len());
-                    gather_in_cells(self.level, cells, &now.places, constraints, points.clone(), &mut forces);
+                    cells.gather(self.level, &now.places, constraints, points.clone(), &mut forces);
                     gathering.each(|point| Force { sum: forces[point - points.start], clearance: FREE_CLEARANCE });
                 }
                 NeighbourSearch::Delaunay(Neighbours::Kept(mesh)) => {
@@ -490,10 +487,10 @@ impl Visitor for Gathering<'_> {
         }
         let lane_of = |lane: usize| points.start + lane.min(points.len() - 1);
         let (now, step) = (self.now, self.step);
-        let velocities: [Vec2; LANES] = from_fn(|lane| now.velocities[lane_of(lane)]);
-        let drifts: [Vec2; LANES] =
-            if step.drift.is_empty() { [Vec2::ZERO; LANES] } else { from_fn(|lane| step.drift[lane_of(lane)]) };
-        let moved: [(Vec2, Vec2); LANES] = from_fn(|lane| {
+        let velocities: [Vec2; EIGHT] = from_fn(|lane| now.velocities[lane_of(lane)]);
+        let drifts: [Vec2; EIGHT] =
+            if step.drift.is_empty() { [Vec2::ZERO; EIGHT] } else { from_fn(|lane| step.drift[lane_of(lane)]) };
+        let moved: [(Vec2, Vec2); EIGHT] = from_fn(|lane| {
             let force = Force { sum: Vec2::new(force[0][lane], force[1][lane]), clearance: clearance[lane] };
             force.moves(velocities[lane], drifts[lane])
         });

@@ -8,11 +8,12 @@ use std::ops::Range;
 use crate::dcr::law::Constraints;
 use crate::dcr::torus::{Torus, TorusPoint};
 use crate::dcr::uniform::rings::Rings;
+use crate::simd::{Lanes, Level, Work, run};
 
 /// The number of points that are processed at a time.
-pub const LANES: usize = 8;
+pub const EIGHT: usize = 8;
 
-type Lanes = [f32; LANES];
+type Floats = [f32; EIGHT];
 
 /// The last bit of the masks of suspects.
 const LAST_BIT: usize = 31;
@@ -28,15 +29,15 @@ const SUSPECT: f32 = 0.05;
 /// The forces on eight points in their stars.
 pub struct Gathered {
     /// The forces, along `x` and along `y`.
-    pub force: [Lanes; 2],
+    pub force: [Floats; 2],
     /// The least heights of the triangles around the points.
-    pub clearance: Lanes,
+    pub clearance: Floats,
     /// 1 if no triangle is turned over or has an edge so long that its double would be ambiguous, else 0.
-    is_sound: [u32; LANES],
+    is_sound: [u32; EIGHT],
     /// 1 if a neighbour, not counting own images, is too close or a triangle too wide, else 0.
-    is_violated: [u32; LANES],
+    is_violated: [u32; EIGHT],
     /// Bit `k` is set if the edge to the neighbour before the `k`-th is suspect, the last bit if one of the others is.
-    suspects: [u32; LANES],
+    suspects: [u32; EIGHT],
 }
 
 /// Receives the results of gathers.
@@ -77,20 +78,20 @@ struct Accumulator<'a> {
     /// The longest edges along the axes, in spacings.
     longest: [f32; 2],
     /// The distances to the points' own images across the boundary.
-    images: [Lanes; 2],
-    degrees: [u32; LANES],
-    force: [Lanes; 2],
+    images: [Floats; 2],
+    degrees: [u32; EIGHT],
+    force: [Floats; 2],
     /// The squares of the least heights, as numerators and denominators.
-    height: [Lanes; 2],
-    is_sound: [u32; LANES],
-    is_violated: [u32; LANES],
-    suspects: [u32; LANES],
+    height: [Floats; 2],
+    is_sound: [u32; EIGHT],
+    is_violated: [u32; EIGHT],
+    suspects: [u32; EIGHT],
     /// The offset of the last neighbour, and its square.
-    before: [Lanes; 2],
-    before_squared: Lanes,
+    before: [Floats; 2],
+    before_squared: Floats,
     /// Of the last triangle: twice the area, and the cosine at the neighbour before the last, times two edges.
-    area: Lanes,
-    cosine: Lanes,
+    area: Floats,
+    cosine: Floats,
 }
 
 /// The stars of all points in a triangulation of the torus.
@@ -102,42 +103,57 @@ pub struct Stars<'a> {
 }
 
 impl Stars<'_> {
-    /// Gathers for a range of points and passes the results to `visitor`. Code of its own for each level of vectors is
-    /// in `vectors`.
-    #[inline(always)]
-    pub fn gather(&self, points: Range<usize>, visitor: &mut impl Visitor) {
-        for first in points.clone().step_by(LANES) {
-            let eight = first..points.end.min(first + LANES);
-            let lanes = from_fn(|lane| (first + lane).min(points.end - 1));
-            visitor.visit(self.rings, eight, &self.gather_eight(lanes));
-        }
+    /// Gathers for a range of points and passes the results to `visitor`.
+    pub fn gather(&self, level: Level, points: Range<usize>, visitor: &mut impl Visitor) {
+        run(level, Gather { stars: self, points, visitor });
     }
 
     #[inline(always)]
-    fn gather_eight(&self, points: [usize; LANES]) -> Gathered {
+    fn gather_eight(&self, points: [usize; EIGHT]) -> Gathered {
         let &Self { rings, torus, places, constraints } = self;
-        let slots: [&[u32]; LANES] = from_fn(|i| rings.slots_of(points[i]));
-        let degrees: [u32; LANES] = from_fn(|i| rings.degree(points[i]) as u32);
-        let here: [u64; LANES] = from_fn(|i| whole(places[points[i]]));
+        let slots: [&[u32]; EIGHT] = from_fn(|i| rings.slots_of(points[i]));
+        let degrees: [u32; EIGHT] = from_fn(|i| rings.degree(points[i]) as u32);
+        let here: [u64; EIGHT] = from_fn(|i| whole(places[points[i]]));
         let (unit, longest) = torus.unit_and_longest();
         let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
-        let images: [[f32; 2]; LANES] = from_fn(|i| torus.image_distances(places[points[i]]));
+        let images: [[f32; 2]; EIGHT] = from_fn(|i| torus.image_distances(places[points[i]]));
         let images = [0, 1].map(|axis| images.map(|image| image[axis]));
         let first = eight.offsets(degrees.map(|degree| degree as usize - 2));
         let mut sums = Accumulator::new(constraints, longest, images, degrees, first);
         sums.skip(eight.offsets(degrees.map(|degree| degree as usize - 1)));
         for k in 0..degrees.into_iter().max().unwrap_or(0) {
-            sums.add_triangles(eight.offsets([k as usize; LANES]), k);
+            sums.add_triangles(eight.offsets([k as usize; EIGHT]), k);
         }
         sums.finish()
+    }
+}
+
+/// [`Stars::gather`].
+struct Gather<'a, V> {
+    stars: &'a Stars<'a>,
+    points: Range<usize>,
+    visitor: &'a mut V,
+}
+
+impl<V: Visitor> Work for Gather<'_, V> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) {
+        let Self { stars, points, visitor } = self;
+        for first in points.clone().step_by(EIGHT) {
+            let eight = first..points.end.min(first + EIGHT);
+            let all = from_fn(|lane| (first + lane).min(points.end - 1));
+            visitor.visit(stars.rings, eight, &stars.gather_eight(all));
+        }
     }
 }
 
 /// Eight points and their rings.
 struct Eight<'a> {
     places: &'a [TorusPoint],
-    rings: [&'a [u32]; LANES],
-    here: [u64; LANES],
+    rings: [&'a [u32]; EIGHT],
+    here: [u64; EIGHT],
     unit: [f32; 2],
 }
 
@@ -150,8 +166,8 @@ fn whole(place: TorusPoint) -> u64 {
 impl Eight<'_> {
     /// The offsets of the neighbours in these slots of the rings.
     #[inline(always)]
-    fn offsets(&self, slots: [usize; LANES]) -> [Lanes; 2] {
-        let there: [u64; LANES] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
+    fn offsets(&self, slots: [usize; EIGHT]) -> [Floats; 2] {
+        let there: [u64; EIGHT] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
         let along = |axis: usize, i: usize| {
             let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
             there.wrapping_sub(here).cast_signed() as f32 * self.unit[axis]
@@ -165,31 +181,31 @@ impl<'a> Accumulator<'a> {
     fn new(
         constraints: &'a Constraints,
         longest: [f32; 2],
-        images: [Lanes; 2],
-        degrees: [u32; LANES],
-        first: [Lanes; 2],
+        images: [Floats; 2],
+        degrees: [u32; EIGHT],
+        first: [Floats; 2],
     ) -> Self {
         Self {
             constraints,
             longest,
             images,
             degrees,
-            force: [[0.0; LANES]; 2],
-            height: [[f32::INFINITY; LANES], [1.0; LANES]],
-            is_sound: [1; LANES],
-            is_violated: [0; LANES],
-            suspects: [0; LANES],
+            force: [[0.0; EIGHT]; 2],
+            height: [[f32::INFINITY; EIGHT], [1.0; EIGHT]],
+            is_sound: [1; EIGHT],
+            is_violated: [0; EIGHT],
+            suspects: [0; EIGHT],
             before: first,
             before_squared: from_fn(|i| first[0][i] * first[0][i] + first[1][i] * first[1][i]),
-            area: [0.0; LANES],
-            cosine: [0.0; LANES],
+            area: [0.0; EIGHT],
+            cosine: [0.0; EIGHT],
         }
     }
 
     /// Proceeds to the next neighbours without gathering.
     #[inline(always)]
-    fn skip(&mut self, [x, y]: [Lanes; 2]) {
-        for i in 0..LANES {
+    fn skip(&mut self, [x, y]: [Floats; 2]) {
+        for i in 0..EIGHT {
             let [before_x, before_y] = self.before.map(|before| before[i]);
             self.area[i] = before_x * y[i] - before_y * x[i];
             self.cosine[i] = self.before_squared[i] - (before_x * x[i] + before_y * y[i]);
@@ -200,9 +216,11 @@ impl<'a> Accumulator<'a> {
 
     /// Gathers in the triangles between the last neighbours and the `k`-th.
     #[inline(always)]
-    fn add_triangles(&mut self, [xs, ys]: [Lanes; 2], k: u32) {
-        let &Constraints { conflict_radius, coverage_radius, .. } = self.constraints;
-        for i in 0..LANES {
+    fn add_triangles(&mut self, [xs, ys]: [Floats; 2], k: u32) {
+        // A copy: loads of its numbers under a condition would keep the loop from becoming vectors.
+        let constraints = *self.constraints;
+        let Constraints { conflict_radius, coverage_radius, .. } = constraints;
+        for i in 0..EIGHT {
             let is = k < self.degrees[i];
             let (x, y) = (xs[i], ys[i]);
             let (before_x, before_y, before_squared) = (self.before[0][i], self.before[1][i], self.before_squared[i]);
@@ -220,7 +238,7 @@ impl<'a> Accumulator<'a> {
 
             let distance = squared.sqrt();
             let is_close = is & (squared < conflict_radius * conflict_radius) & (squared != 0.0);
-            let pushed = if is_close { self.constraints.conflict(distance) } else { 0.0 };
+            let pushed = if is_close { constraints.conflict(distance) } else { 0.0 };
 
             let product = before_squared * squared * opposite;
             let is_wide = |radius: f32| product > (2.0 * radius * area) * (2.0 * radius * area);
@@ -229,7 +247,7 @@ impl<'a> Accumulator<'a> {
             let centre_y = (squared * before_x - before_squared * x) * share;
             let radius = (centre_x * centre_x + centre_y * centre_y).sqrt();
             let is_pulled = is & is_wide(coverage_radius) & (radius > 0.0) & (radius < f32::INFINITY);
-            let pulled = self.constraints.hole(radius);
+            let pulled = constraints.hole(radius);
             self.force[0][i] += pushed * x;
             self.force[1][i] += pushed * y;
             self.force[0][i] += if is_pulled { pulled * centre_x } else { 0.0 };

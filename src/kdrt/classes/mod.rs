@@ -13,8 +13,6 @@
 //! (`stack.rs`).
 
 mod filling;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
 
 use crate::classes::Classes;
 use crate::error::Result;
@@ -36,7 +34,7 @@ use crate::plane::{
 };
 use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
-use crate::simd::Level;
+use crate::simd::{Lanes, Level, Work, run};
 
 /// The groups of a plane of several classes on its lattice.
 pub fn stack(job: &Job, lattice: &Lattice, options: &Options, classes: &Classes) -> Result<Stack<Group>> {
@@ -203,36 +201,6 @@ impl Group {
         Rect { min: [rect.min[0] - x, rect.min[1] - y], max: [rect.max[0] + x, rect.max[1] + y] }
     }
 
-    /// Returns the samples that a pass adds to a block.
-    #[inline(always)]
-    pub fn fill_block_portable(
-        &self,
-        filling: &mut ClassFilling,
-        known: &Known,
-        place: [i32; 2],
-        pass: Pass,
-    ) -> Vec<Sample> {
-        let &Known { blocks, before, made } = known;
-        let block = Rect { min: place, max: place.map(|index| index + 1) };
-        let rect = blocks.rect(&block);
-        self.begin(filling, &rect);
-        // Loops, since a closure as large as this is not compiled for the vector instructions of `vectors.rs`.
-        let mut seen = Vec::new();
-        before.visit(&self.seen_from(&rect), |sample| seen.push(sample));
-        for sample in &seen {
-            self.exclude(filling, sample);
-            if filling.is_covered() {
-                return Vec::new();
-            }
-        }
-        let near = rect.grown(self.reach);
-        for sample in made.of_blocks(&block.grown(1)).filter(|sample| near.contains(sample.point)) {
-            self.exclude(filling, &sample);
-        }
-        let rng = &mut Rng::at(blocks.rng(place).bits(), Draw::Darts, &[pass as u64]);
-        self.throw(filling, rng, pass, &[[0, 0]])
-    }
-
     /// Fills a narrow torus as a whole.
     fn fill_torus(&self, job: &Job, before: &[Sample]) -> Result<Vec<Sample>> {
         self.require_memory(self.lattice.size, 1)?;
@@ -303,6 +271,42 @@ impl Group {
     }
 }
 
+/// Returns the samples that a pass adds to a block.
+struct FillBlock<'a> {
+    group: &'a Group,
+    filling: &'a mut ClassFilling,
+    known: &'a Known<'a>,
+    place: [i32; 2],
+    pass: Pass,
+}
+
+impl Work for FillBlock<'_> {
+    type Out = Vec<Sample>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) -> Vec<Sample> {
+        let Self { group, filling, known: &Known { blocks, before, made }, place, pass } = self;
+        let block = Rect { min: place, max: place.map(|index| index + 1) };
+        let rect = blocks.rect(&block);
+        group.begin(filling, &rect);
+        // Loops, since the compiler does not inline closures as large as this, and so not for the level.
+        let mut seen = Vec::new();
+        before.visit(&group.seen_from(&rect), |sample| seen.push(sample));
+        for sample in &seen {
+            group.exclude(filling, sample);
+            if filling.is_covered() {
+                return Vec::new();
+            }
+        }
+        let near = rect.grown(group.reach);
+        for sample in made.of_blocks(&block.grown(1)).filter(|sample| near.contains(sample.point)) {
+            group.exclude(filling, &sample);
+        }
+        let rng = &mut Rng::at(blocks.rng(place).bits(), Draw::Darts, &[pass as u64]);
+        group.throw(filling, rng, pass, &[[0, 0]])
+    }
+}
+
 impl Layer for Group {
     type Sample = Sample;
 
@@ -348,8 +352,10 @@ impl Layer for Group {
                 let job = job.part(f64::from(share) / 4.0, f64::from(share + 1) / 4.0);
                 let filled = job.map(tasks.len(), |task| {
                     let mut filling = ClassFilling::default();
-                    let places = places[tasks.range(task)].iter();
-                    places.map(|&place| self.fill_block(&mut filling, &known, place, pass)).collect::<Vec<_>>()
+                    let mut fill = |place| {
+                        run(self.level, FillBlock { group: self, filling: &mut filling, known: &known, place, pass })
+                    };
+                    places[tasks.range(task)].iter().map(|&place| fill(place)).collect::<Vec<_>>()
                 })?;
                 places
                     .into_iter()
@@ -449,5 +455,37 @@ impl Made {
                 ..*sample
             })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::classes::Classes;
+    use crate::job::Context;
+    use crate::kdrt::classes::stack;
+    use crate::kdrt::options::Options;
+    use crate::plane::lattice::Lattice;
+    use crate::points::{Boundary, Domain};
+
+    #[test]
+    fn all_levels_make_the_same_samples() {
+        let classes = Classes::new(
+            4,
+            &[0.04, 0.0, 0.03, 0.01, 0.0, 0.02, 0.015, 0.03, 0.03, 0.015, 0.02, 0.0, 0.01, 0.03, 0.0, 0.008],
+        );
+        let classes = classes.unwrap();
+        let options = Options::classes(&classes).seed(5);
+        let lattice = Lattice::of_any_size(&Domain::unit(Boundary::Periodic), f64::MAX).unwrap();
+        let set = |level: Level| {
+            Context::new(1).unwrap().run(None, |job| {
+                let mut groups = stack(job, &lattice, &options, &classes)?;
+                groups.layers_mut().iter_mut().for_each(|group| group.level = level);
+                groups.whole(job)
+            })
+        };
+        let portable = set(Level::Portable).unwrap();
+        assert!(portable.len() > 1000);
+        assert!(Level::available().into_iter().all(|level| set(level).unwrap() == portable));
     }
 }
