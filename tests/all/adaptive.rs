@@ -14,6 +14,7 @@ use crate::common::adaptive_oracle as oracle;
 use crate::common::adaptive_oracle::Field;
 use crate::common::meshes::{self, Soup};
 use crate::common::tolerance;
+use crate::common::triangle::distance;
 
 fn mesh((positions, triangles): Soup) -> Mesh {
     Mesh::new(positions, triangles).unwrap()
@@ -33,9 +34,7 @@ fn tolerance(mesh: &Mesh, field: &Field) -> f64 {
     };
     let of_triangle = |triangle: u32| {
         let corners = mesh.corners(triangle).map(|corner| corner.map(f64::from));
-        let side = |i: usize, j: usize| -> f64 {
-            (0..3).map(|axis| (corners[i][axis] - corners[j][axis]).powi(2)).sum::<f64>().sqrt()
-        };
+        let side = |i: usize, j: usize| distance(corners[i], corners[j]);
         let height = 2.0 * mesh.triangle_area(triangle) / side(0, 1).max(side(1, 2)).max(side(2, 0));
         let [a, b, c] = mesh.triangles()[triangle as usize].map(|vertex| f64::from(radii[vertex as usize]));
         let change = a.max(b).max(c) - a.min(b).min(c);

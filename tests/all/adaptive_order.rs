@@ -10,6 +10,7 @@ use crate::common::adaptive_oracle as oracle;
 use crate::common::adaptive_oracle::Field;
 use crate::common::meshes;
 use crate::common::random::Random;
+use crate::common::triangle::distance;
 
 type Point = [f64; 3];
 
@@ -58,10 +59,6 @@ fn prefix(samples: &Points<3>, count: usize) -> Points<3> {
     first.barycentrics.truncate(count);
     first.ranks.truncate(count);
     first
-}
-
-fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
 }
 
 /// The radii of the samples where all are multiplied with 1.

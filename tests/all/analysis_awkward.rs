@@ -15,6 +15,7 @@ use glam::DVec2;
 
 use crate::common::meshes;
 use crate::common::sets::{Random, distance, nearest_distances};
+use crate::common::triangle::distance as straight;
 
 const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
 
@@ -248,7 +249,8 @@ fn surfaces_with_few_samples_are_covered_as_their_places_are() {
         let all: Vec<_> = (0..5).map(|_| sample()).collect();
         let twice = [&all[..], &all[..]].concat();
         for samples in [&all[..1], &all[..2], &all[..3], &all[..], &twice[..]] {
-            let pairs = samples.iter().enumerate().flat_map(|(i, a)| samples[..i].iter().map(move |b| apart(*a, *b)));
+            let pairs =
+                samples.iter().enumerate().flat_map(|(i, a)| samples[..i].iter().map(move |b| straight(*a, *b)));
             let smallest = pairs.fold(f64::INFINITY, f64::min);
             let found = smallest_distance_3d(&context(), samples, None).unwrap();
             assert!(found == smallest || (found - smallest).abs() < 1e-12, "{found}, not {smallest}");
@@ -265,20 +267,17 @@ fn surfaces_with_few_samples_are_covered_as_their_places_are() {
     }
 }
 
-fn apart(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
-}
-
 /// The largest distance of a lattice of places of a mesh from samples, and how far other places can be from the lattice.
 fn farthest_place(mesh: &Mesh, samples: &[[f32; 3]], steps: u32) -> (f64, f64) {
     let (mut farthest, mut longest): (f64, f64) = (0.0, 0.0);
     for triangle in (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0) {
         for (u, v) in (0..=steps).flat_map(|u| (0..=steps - u).map(move |v| (u, v))) {
             let place = mesh.point(triangle, [u, v].map(|x| x as f32 / steps as f32));
-            farthest = farthest.max(samples.iter().map(|&sample| apart(sample, place)).fold(f64::INFINITY, f64::min));
+            farthest =
+                farthest.max(samples.iter().map(|&sample| straight(sample, place)).fold(f64::INFINITY, f64::min));
         }
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|place| mesh.point(triangle, place));
-        longest = (0..3).map(|i| apart(corners[i], corners[(i + 1) % 3])).fold(longest, f64::max);
+        longest = (0..3).map(|i| straight(corners[i], corners[(i + 1) % 3])).fold(longest, f64::max);
     }
     (farthest, longest / f64::from(steps) + 1e-6)
 }

@@ -47,7 +47,7 @@ fn a_constant_density_is_as_good_as_none() {
     for boundary in BOUNDARIES {
         let domain = unit_square(boundary);
         for density in [Density::Function(&|_| 7.0), Density::Image { values: &image, width: 4, height: 3 }] {
-            for start in [random_points(2000, 50), darts(2000, 51)] {
+            for start in [random_points(800, 50), darts(800, 51)] {
                 let (_, plain) = relax(&Context::new(1).unwrap(), &options(domain).into(), &start, None).unwrap();
                 let (relaxed, report) = run(&options(domain), &density, &start);
                 let smallest = nearest_distances(&domain, &relaxed).into_iter().fold(f64::INFINITY, f64::min);

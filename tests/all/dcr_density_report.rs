@@ -18,12 +18,12 @@ struct Scene<'a> {
 impl<'a> Scene<'a> {
     fn new(domain: Domain, density: &'a (dyn Fn(Place) -> f64 + Sync), count: usize) -> Self {
         let [width, height] = domain.extent();
-        let places = (0..1000 * 1000).map(|i| [i % 1000, i / 1000]);
+        let places = (0..300 * 300).map(|i| [i % 300, i / 300]);
         let at = |[i, j]: [i32; 2]| {
-            let share = |k: i32| (f64::from(k) + 0.5) / 1000.0;
+            let share = |k: i32| (f64::from(k) + 0.5) / 300.0;
             density([domain.min[0] + share(i) * width, domain.min[1] + share(j) * height])
         };
-        let mean = places.map(at).sum::<f64>() / 1e6;
+        let mean = places.map(at).sum::<f64>() / 9e4;
         Self { domain, density, mean, unit: (2.0 * width * height / (3f64.sqrt() * count as f64)).sqrt() }
     }
 

@@ -13,6 +13,7 @@ use crate::common::meshes;
 use crate::common::relaxed;
 use crate::common::sets::{self, Random, unit_square};
 use crate::common::surface_oracle as oracle;
+use crate::common::triangle::distance;
 
 const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
 const NEIGHBOURHOODS: [Neighbourhood; 2] = [Neighbourhood::Delaunay, Neighbourhood::Nearest];
@@ -273,9 +274,6 @@ fn relax_on(mesh: &Mesh, triangles: &[u32], uvs: &[[f32; 2]], threads: usize) ->
 }
 
 fn smallest(samples: &[[f32; 3]]) -> f64 {
-    let distance = |a: [f32; 3], b: [f32; 3]| {
-        (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
-    };
     let nearest = |i: usize| samples[..i].iter().map(move |&other| distance(samples[i], other));
     (0..samples.len()).flat_map(nearest).fold(f64::INFINITY, f64::min)
 }

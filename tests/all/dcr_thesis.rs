@@ -145,8 +145,8 @@ fn variance_rests(domain: &Domain, states: &[Vec<[f32; 2]>]) -> Option<usize> {
 /// Ten steps in a row, of which each leaves the variance, and all points but a few where they are.
 #[test]
 fn the_oracle_of_the_thesis_s_test_notices_points_that_move_and_a_variance_that_changes() {
-    let (domain, start) = (unit_square(Boundary::Periodic), random_points(1000, 11));
-    let step = domain.hexagonal_distance(1000) as f32;
+    let (domain, start) = (unit_square(Boundary::Periodic), random_points(400, 11));
+    let step = domain.hexagonal_distance(400) as f32;
     let rests = |of: &dyn Fn(usize) -> Vec<[f32; 2]>| variance_rests(&domain, &(0..40).map(of).collect::<Vec<_>>());
     let around = |x: f32| x - x.floor();
     assert_eq!(rests(&|_| start.clone()), Some(11));
@@ -158,7 +158,7 @@ fn the_oracle_of_the_thesis_s_test_notices_points_that_move_and_a_variance_that_
     assert_eq!(rests(&drift(0.009)), Some(11));
     assert_eq!(rests(&drift(0.011)), None);
     // One pair comes together in the ninth step: the variance changes, and all points but one stay.
-    let lattice: Vec<_> = (0..1024).map(|i| [(i % 32) as f32 / 32.0, (i / 32) as f32 / 32.0]).collect();
+    let lattice: Vec<_> = (0..400).map(|i| [(i % 20) as f32 / 20.0, (i / 20) as f32 / 20.0]).collect();
     let jolt = |state: usize| {
         let mut points = lattice.clone();
         points[0][0] = 0.003;

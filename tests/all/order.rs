@@ -10,8 +10,9 @@ use azulejo::psp::{self, FlatOptions, Options, Report};
 use azulejo::{Boundary, Context, Domain, Error, Order, Points};
 
 use crate::common::meshes;
-use crate::common::order_oracle::{conflict, covers, disorder, distance};
+use crate::common::order_oracle::{conflict, covers, disorder};
 use crate::common::random;
+use crate::common::triangle::distance;
 
 const QUOTIENT: f64 = 1.090_507_732_665_257_7;
 

@@ -9,41 +9,15 @@ use azulejo::psp::{self, ClassOptions, Options};
 use azulejo::{Classes, Context, Error, Given, Points};
 
 use crate::common::meshes::{self, Soup};
-use crate::common::parts;
 use crate::common::random::Random;
+use crate::common::surface_oracle::gap_in_part;
 use crate::common::tolerance::tolerance;
-use crate::common::triangle::{has_area, normal};
+use crate::common::triangle::{distance, exact, has_area, normal};
 
 type Point = [f64; 3];
 
 fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
-}
-
-fn exact(position: [f32; 3]) -> Point {
-    position.map(f64::from)
-}
-
-fn distance(a: Point, b: Point) -> f64 {
-    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()
-}
-
-/// A point for which it could not be proved that it lies in a ball: a part is covered when one ball has its corners,
-/// otherwise its parts must be.
-fn gap(part: [Point; 3], balls: &[(Point, f64)], smallest: f64) -> Option<Point> {
-    if balls.iter().any(|&(centre, reach)| part.iter().all(|&corner| distance(corner, centre) <= reach)) {
-        return None;
-    }
-    let [a, b, c] = part;
-    let sides = [distance(b, c), distance(c, a), distance(a, b)];
-    let longest = sides.into_iter().fold(0.0, f64::max);
-    if longest < smallest {
-        return Some(a);
-    }
-    let near: Vec<_> =
-        balls.iter().copied().filter(|&(centre, reach)| distance(a, centre) <= reach + longest).collect();
-    let middle = |a: Point, b: Point| std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0);
-    parts::parts(part, sides, middle).into_iter().find_map(|part| gap(part, &near, smallest))
 }
 
 /// What is asked for.
@@ -127,7 +101,7 @@ impl<'a> Case<'a> {
                 balls.extend(given.map(|(given, &position)| (exact(position), self.clearance(given, class_j))));
                 balls.retain(|ball| ball.1 > 0.0);
                 balls.iter_mut().for_each(|ball| ball.1 += tolerance);
-                let gap = gap(corners, &balls, tolerance / 100.0);
+                let gap = gap_in_part(corners, &balls, tolerance / 100.0);
                 assert_eq!(gap, None, "class {class_j}, triangle {triangle}: {:?}", self.classes);
             }
         }
@@ -244,7 +218,7 @@ impl<'a> Near<'a> {
             let is_open = |&class: &usize| {
                 let reach = |i: usize| self.classes.radius(self.class(i), class) + tolerance;
                 let balls: Vec<_> = near.iter().map(|&i| (self.points[i], reach(i))).collect();
-                gap(corners, &balls, tolerance / 100.0).is_some()
+                gap_in_part(corners, &balls, tolerance / 100.0).is_some()
             };
             (0..self.classes.count()).find(is_open).map(|class| (class, triangle))
         })

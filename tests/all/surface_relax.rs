@@ -11,6 +11,7 @@ use azulejo::{Context, Error, Points, psp};
 
 use crate::common::meshes::{self, Soup};
 use crate::common::surface_oracle as oracle;
+use crate::common::triangle::distance;
 
 fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
@@ -41,10 +42,6 @@ fn run_steps(mesh: &Mesh, samples: &Points<3>, steps: u32) -> (Points<3>, Report
 
 fn d_max(mesh: &Mesh, count: usize) -> f64 {
     (2.0 * mesh.area() / (3f64.sqrt() * count as f64)).sqrt()
-}
-
-fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
 }
 
 fn smallest_distance(samples: &Points<3>) -> f64 {

@@ -7,11 +7,7 @@ use azulejo::thin::{Options, Selection, thin};
 use azulejo::{Context, Error, Order};
 
 use crate::common::random::Random;
-
-fn distance<const D: usize>(a: [f32; D], b: [f32; D]) -> f64 {
-    let squares = std::iter::zip(a, b).map(|(a, b)| (f64::from(a) - f64::from(b)) * (f64::from(a) - f64::from(b)));
-    squares.sum::<f64>().sqrt()
-}
+use crate::common::triangle::distance;
 
 /// The definition: each point that no kept one before it is nearer to.
 fn kept_by_radius<const D: usize>(cloud: &[[f32; D]], radius: f64) -> Vec<u32> {

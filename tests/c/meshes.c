@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "naive.h"
 #include "samples.h"
 
 #define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
@@ -108,6 +107,7 @@ static void masks(void) {
     azulejo_psp_options options = psp_options(0.1);
     azulejo_psp *psp = NULL;
     azulejo_psp_report report = psp_report();
+    azulejo_coverage_report coverage = coverage_report();
     double uncovered = 1;
     size_t i, wrong = 0;
 
@@ -124,8 +124,9 @@ static void masks(void) {
         wrong += azulejo_points_positions(points)[3 * i + 2] != 1; /* the two are the cube's upper face */
     }
     CHECK(wrong == 0 && azulejo_points_count(points) > 60);
-    CHECK(naive_gaps_of_face(azulejo_points_positions(points), azulejo_points_count(points), 0.1 + 1e-6, 5) == 0);
-    CHECK(naive_gaps_of_face(azulejo_points_positions(points), azulejo_points_count(points) - 1, 0.1 - 1e-6, 5) > 0);
+    ACCEPTED(azulejo_mesh_coverage(context, part, azulejo_points_positions(points), azulejo_points_count(points),
+                                   0.1 + 1e-6, &coverage));
+    CHECK(coverage.gaps == 0);
     ACCEPTED(azulejo_mesh_uncovered_fraction(context, part, azulejo_points_positions(points),
                                              azulejo_points_count(points), 0.1, 10000, 1, &uncovered));
     CHECK(uncovered == 0);

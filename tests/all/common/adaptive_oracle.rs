@@ -5,12 +5,10 @@ use azulejo::mesh::Mesh;
 
 use crate::common::buckets::Buckets;
 use crate::common::parts;
-use crate::common::triangle::{has_area, normal};
+pub use crate::common::surface_oracle::Ball;
+use crate::common::triangle::{distance, exact, has_area, normal};
 
 type Point = [f64; 3];
-
-/// A place and a radius.
-pub type Ball = (Point, f64);
 
 /// The radius on a mesh, as the caller knows it.
 pub enum Field<'a> {
@@ -24,14 +22,6 @@ pub enum Field<'a> {
 struct Part {
     triangle: u32,
     corners: [(Point, [f64; 2]); 3],
-}
-
-fn exact(position: [f32; 3]) -> Point {
-    position.map(f64::from)
-}
-
-fn distance(a: Point, b: Point) -> f64 {
-    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {

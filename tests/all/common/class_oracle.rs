@@ -2,8 +2,8 @@
 
 use azulejo::{Classes, Domain, Points};
 
-use crate::common::disks::{distance as distance_to_given, find_gap};
-use crate::common::{distance, float_spacing};
+use crate::common::disks::{distance, find_gap};
+use crate::common::float_spacing;
 
 /// Positions, with a clearance for each class, row by row.
 pub type Set = (Vec<[f32; 2]>, Vec<f64>);
@@ -25,7 +25,7 @@ pub fn fault(domain: &Domain, classes: &Classes, given: &Set, set: &Points<2>) -
         }
         // A distance is computed with an error of its own where the period is rounded.
         let clearance = |index: usize| given.1[index * count + class] * (1.0 - 1e-15);
-        let is_near = |&index: &usize| distance_to_given(domain, a, given.0[index]) < clearance(index);
+        let is_near = |&index: &usize| distance(domain, a, given.0[index]) < clearance(index);
         if let Some(index) = (0..given.0.len()).find(is_near) {
             return Some(format!("{a:?} of {class} is too near to {:?}", given.0[index]));
         }

@@ -1,11 +1,11 @@
-//! Coverage by disks of any radii, from the definition.
+//! Distances and coverage by disks of any radii in the plane, from the definition. The fuzz targets include this file, too.
 
 use azulejo::{Boundary, Domain};
 
-/// The distance of a sample from a given one, which may be anywhere: on a torus from its nearest image.
-pub fn distance(domain: &Domain, sample: [f32; 2], given: [f32; 2]) -> f64 {
+/// The distance of two points, of which each may be anywhere: on a torus that of the nearest images.
+pub fn distance(domain: &Domain, a: [f32; 2], b: [f32; 2]) -> f64 {
     let along = |axis: usize| {
-        let along = (f64::from(sample[axis]) - f64::from(given[axis])).abs();
+        let along = (f64::from(a[axis]) - f64::from(b[axis])).abs();
         match domain.boundary {
             Boundary::Bounded => along,
             Boundary::Periodic => {
@@ -15,7 +15,12 @@ pub fn distance(domain: &Domain, sample: [f32; 2], given: [f32; 2]) -> f64 {
             }
         }
     };
-    (along(0) * along(0) + along(1) * along(1)).sqrt()
+    length(along(0), along(1))
+}
+
+/// Squares of all floats are far from the limits of `f64`.
+fn length(x: f64, y: f64) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// A point of a domain in none of some disks, if there is one. On a torus disks wrap.
@@ -47,11 +52,11 @@ pub fn find_gap(
 fn find_gap_in(min: [f64; 2], max: [f64; 2], disks: &[([f64; 2], f64)], finest: f64) -> Option<[f64; 2]> {
     let nearest = |place: &[f64; 2]| {
         let [dx, dy] = [0, 1].map(|axis| (min[axis] - place[axis]).max(place[axis] - max[axis]).max(0.0));
-        dx.hypot(dy)
+        length(dx, dy)
     };
     let farthest = |place: &[f64; 2]| {
         let [dx, dy] = [0, 1].map(|axis| (place[axis] - min[axis]).max(max[axis] - place[axis]));
-        dx.hypot(dy)
+        length(dx, dy)
     };
     if disks.iter().any(|(place, radius)| farthest(place) <= *radius) {
         return None;

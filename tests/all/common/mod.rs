@@ -22,6 +22,7 @@ pub mod windows;
 use std::collections::HashMap;
 
 use azulejo::{Boundary, Domain};
+pub use disks::distance;
 
 /// Both boundaries, for loops.
 pub const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
@@ -91,18 +92,6 @@ pub fn find_conflict(domain: &Domain, radius: f64, samples: &[[f32; 2]]) -> Opti
     None
 }
 
-/// The distance in `f64`, on a torus the wrapped one.
-pub fn distance(domain: &Domain, a: [f32; 2], b: [f32; 2]) -> f64 {
-    let [dx, dy] = [0, 1].map(|axis| {
-        let along = (f64::from(a[axis]) - f64::from(b[axis])).abs();
-        match domain.boundary {
-            Boundary::Periodic => along.min(domain.max[axis] - domain.min[axis] - along),
-            Boundary::Bounded => along,
-        }
-    });
-    (dx * dx + dy * dy).sqrt()
-}
-
 /// A point, and on a torus its eight nearest images.
 fn images(domain: &Domain, point: [f64; 2]) -> Vec<[f64; 2]> {
     match domain.boundary {
@@ -118,30 +107,6 @@ fn images(domain: &Domain, point: [f64; 2]) -> Vec<[f64; 2]> {
 
 /// A point of the domain farther than `radius` from all samples, if there is one.
 pub fn find_gap(domain: &Domain, radius: f64, samples: &[[f32; 2]]) -> Option<[f64; 2]> {
-    let disks = samples.iter().flat_map(|sample| images(domain, sample.map(f64::from))).collect::<Vec<_>>();
-    find_gap_in(domain.min, domain.max, radius, &disks, float_spacing(domain) / 16.0)
-}
-
-/// Cuts the rectangle into smaller ones until each lies in one disk, or one is as small as `finest` and does not.
-fn find_gap_in(min: [f64; 2], max: [f64; 2], radius: f64, disks: &[[f64; 2]], finest: f64) -> Option<[f64; 2]> {
-    let nearest =
-        |disk: &[f64; 2]| length([0, 1].map(|axis| (min[axis] - disk[axis]).max(disk[axis] - max[axis]).max(0.0)));
-    let farthest = |disk: &[f64; 2]| length([0, 1].map(|axis| (disk[axis] - min[axis]).max(max[axis] - disk[axis])));
-    if disks.iter().any(|disk| farthest(disk) <= radius) {
-        return None;
-    }
-    let touching: Vec<[f64; 2]> = disks.iter().copied().filter(|disk| nearest(disk) <= radius).collect();
-    let middle = [0, 1].map(|axis| 0.5 * (min[axis] + max[axis]));
-    let longer = if max[0] - min[0] >= max[1] - min[1] { 0 } else { 1 };
-    if touching.is_empty() || max[longer] - min[longer] <= finest {
-        return Some(middle);
-    }
-    let (mut end, mut start) = (max, min);
-    end[longer] = middle[longer];
-    start[longer] = middle[longer];
-    find_gap_in(min, end, radius, &touching, finest).or_else(|| find_gap_in(start, max, radius, &touching, finest))
-}
-
-fn length([x, y]: [f64; 2]) -> f64 {
-    (x * x + y * y).sqrt()
+    let samples = samples.iter().map(|&sample| (sample, radius));
+    disks::find_gap(domain, samples, 0.0, float_spacing(domain) / 16.0)
 }

@@ -6,10 +6,7 @@ pub use surface_oracle::conflict;
 
 use crate::common::surface_oracle;
 use crate::common::tolerance::tolerance;
-
-pub fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
-    (0..3).map(|axis| (f64::from(a[axis]) - f64::from(b[axis])).powi(2)).sum::<f64>().sqrt()
-}
+use crate::common::triangle::distance;
 
 /// Whether every place of a mesh is within a distance of one of the positions.
 pub fn covers(mesh: &Mesh, positions: &[[f32; 3]], within: f64) -> bool {

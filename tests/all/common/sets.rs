@@ -2,6 +2,7 @@
 
 use azulejo::{Boundary, Domain};
 
+pub use crate::common::disks::distance;
 pub use crate::common::random::Random;
 
 /// The unit square.
@@ -30,25 +31,13 @@ pub fn darts(count: usize, seed: u64) -> Vec<[f32; 2]> {
     points
 }
 
-/// The distance of two points, around the torus on a periodic domain: the shortest way over nine images.
-pub fn distance(domain: &Domain, a: [f32; 2], b: [f32; 2]) -> f64 {
-    let turns: &[f64] = match domain.boundary {
-        Boundary::Periodic => &[-1.0, 0.0, 1.0],
-        Boundary::Bounded => &[0.0],
-    };
-    let along = |axis: usize| {
-        let period = domain.max[axis] - domain.min[axis];
-        let ways = turns.iter().map(|turn| (f64::from(b[axis]) - f64::from(a[axis]) + turn * period).abs());
-        ways.fold(f64::INFINITY, f64::min)
-    };
-    along(0).hypot(along(1))
-}
-
 /// The distance of each point to its nearest neighbour, over all pairs.
 pub fn nearest_distances(domain: &Domain, points: &[[f32; 2]]) -> Vec<f64> {
-    let nearest = |i: usize| {
-        let others = (0..points.len()).filter(|&j| j != i);
-        others.map(|j| distance(domain, points[i], points[j])).fold(f64::INFINITY, f64::min)
-    };
-    (0..points.len()).map(nearest).collect()
+    let mut nearest = vec![f64::INFINITY; points.len()];
+    for (i, j) in (0..points.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        let distance = distance(domain, points[i], points[j]);
+        nearest[i] = nearest[i].min(distance);
+        nearest[j] = nearest[j].min(distance);
+    }
+    nearest
 }

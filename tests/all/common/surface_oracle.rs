@@ -6,17 +6,12 @@ use azulejo::mesh::Mesh;
 
 use crate::common::buckets::Buckets;
 use crate::common::parts::parts;
-use crate::common::triangle::{has_area, is_normal};
+use crate::common::triangle::{distance, exact, has_area, is_normal};
 
 type Point = [f64; 3];
 
-fn exact(position: [f32; 3]) -> Point {
-    position.map(f64::from)
-}
-
-fn distance(a: Point, b: Point) -> f64 {
-    ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2) + (a[2] - b[2]).powi(2)).sqrt()
-}
+/// A place, and a distance up to which it covers others.
+pub type Ball = (Point, f64);
 
 fn middle(a: Point, b: Point) -> Point {
     std::array::from_fn(|axis| (a[axis] + b[axis]) / 2.0)
@@ -37,15 +32,15 @@ pub fn gap(mesh: &Mesh, samples: &Points<3>, radius: f64, tolerance: f64) -> Opt
     let buckets = Buckets::new(&samples.positions, 2.0 * reach);
     (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.is_sampled(triangle)).find_map(|triangle| {
         let corners = mesh.corners(triangle).map(exact);
-        let near: Vec<Point> = buckets.near(&corners, reach).into_iter().map(|(_, point)| point).collect();
-        has_area(corners).then(|| gap_in_part(corners, &near, reach, tolerance / 100.0)).flatten()
+        let near: Vec<Ball> = buckets.near(&corners, reach).into_iter().map(|(_, point)| (point, reach)).collect();
+        has_area(corners).then(|| gap_in_part(corners, &near, tolerance / 100.0)).flatten()
     })
 }
 
-/// A part is covered when one sample is near to its three corners; otherwise four quarters of it must be, or two halves
-/// where it is much longer than wide.
-fn gap_in_part(part: [Point; 3], samples: &[Point], reach: f64, smallest: f64) -> Option<Point> {
-    if samples.iter().any(|&sample| part.iter().all(|&corner| distance(corner, sample) <= reach)) {
+/// A point for which it could not be proved that it lies in a ball: a part is covered when one ball has its three corners;
+/// otherwise four quarters of it must be, or two halves where it is much longer than wide.
+pub fn gap_in_part(part: [Point; 3], balls: &[Ball], smallest: f64) -> Option<Point> {
+    if balls.iter().any(|&(centre, reach)| part.iter().all(|&corner| distance(corner, centre) <= reach)) {
         return None;
     }
     let [a, b, c] = part;
@@ -54,8 +49,9 @@ fn gap_in_part(part: [Point; 3], samples: &[Point], reach: f64, smallest: f64) -
     if longest < smallest {
         return Some(a);
     }
-    let near: Vec<_> = samples.iter().copied().filter(|&sample| distance(a, sample) <= reach + longest).collect();
-    parts(part, sides, middle).into_iter().find_map(|part| gap_in_part(part, &near, reach, smallest))
+    let near: Vec<_> =
+        balls.iter().copied().filter(|&(centre, reach)| distance(a, centre) <= reach + longest).collect();
+    parts(part, sides, middle).into_iter().find_map(|part| gap_in_part(part, &near, smallest))
 }
 
 /// A sample that is not where its triangle and barycentrics say, or whose normal is not its triangle's.

@@ -1,8 +1,17 @@
-//! Triangles from their corners, without the library.
+//! Distances, and triangles from their corners, without the library.
 
 use azulejo::mesh::Mesh;
 
 type Point = [f64; 3];
+
+pub fn exact(position: [f32; 3]) -> Point {
+    position.map(f64::from)
+}
+
+/// The straight distance of two places.
+pub fn distance<T: Copy + Into<f64>, const D: usize>(a: [T; D], b: [T; D]) -> f64 {
+    (0..D).map(|axis| (a[axis].into() - b[axis].into()).powi(2)).sum::<f64>().sqrt()
+}
 
 /// The length of a vector.
 pub fn length([x, y, z]: Point) -> f64 {
