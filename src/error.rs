@@ -49,6 +49,9 @@ pub enum Error {
     /// Embree refused: no device, no memory, or a scene that it cannot build.
     #[error("Embree: {0}")]
     Embree(String),
+    /// The call needs what this build of the library lacks: Embree.
+    #[error("{0}")]
+    Unsupported(&'static str),
     /// Threads could not be started.
     #[error("cannot start {threads} threads: {reason}")]
     Threads {

@@ -19,8 +19,8 @@ pub extern "C" fn azulejo_version() -> u32 {
 }
 
 /// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
-/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_EMBREE, and everything else is
-/// there: sets on meshes are filled, as by default, or projected by the rasteriser.
+/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_UNSUPPORTED, and everything else
+/// is there: sets on meshes are filled, as by default, or projected by the rasteriser.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_has_embree() -> i32 {
     i32::from(HAS_EMBREE)
