@@ -44,19 +44,24 @@
  *   function lists its codes except two, which are possible in most: AZULEJO_ERROR_THREADS in
  *   calls with a context (see "Threads"), and AZULEJO_ERROR_INTERNAL for a panic inside the
  *   library, which is a bug. AZULEJO_ERROR_INVALID_ARGUMENT is returned for a pointer that is NULL
- *   or not aligned and for a value outside its documented range. No exception leaves the library.
+ *   or not aligned and for a value outside its documented range. azulejo_status_name gives the name
+ *   of a code. No exception leaves the library.
  *   Nothing is printed to stdout; a panic prints to stderr.
  *
  * Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
  *   azulejo_selection, azulejo_spectrum and azulejo_differences are made by the library. The
  *   caller owns them and frees each with its own _free function, which allows NULL. They may be
  *   freed in any order: a handle keeps what it needs of another one. Accessors return 0 or NULL
- *   for NULL. Pointers into a handle are valid until the handle is freed.
+ *   for NULL. Pointers into a handle are valid until the handle is freed. A handle begins with a
+ *   tag, which is overwritten when it is freed. A handle of another type is always refused. A
+ *   freed one is refused as long as its memory has not been used again; that is no promise, as
+ *   the allocator may have given the memory away or back to the system. Accessors return 0 or
+ *   NULL for what is refused, _free functions leave it as it is, and both set the last error.
  *
  * Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
  *   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
- *   that are not aligned for their type are refused. The library cannot detect other invalid
- *   pointers or counts that exceed an array.
+ *   that are not aligned for their type, handles and outputs included, are refused. Other invalid
+ *   pointers, and counts that exceed an array, cannot be detected.
  *
  * Structs that can grow. Options, reports, azulejo_plane_set, azulejo_density and
  *   azulejo_mesh_density begin with struct_size and must be filled by their _init function before
@@ -88,12 +93,12 @@
  * Threads. Every function may be called from any thread at any time. Several threads may use one
  *   context at once, make windows of one plane, and read one mesh, set of points, selection,
  *   spectrum or differences. A psp handle serves one changing call at a time and refuses a second
- *   one. A handle must not be freed while another thread uses it. The last error belongs to the
- *   thread that made the call. After fork, in the child, contexts with more than one thread and
- *   psp handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the
- *   parent only; they can still be freed. Planes, contexts of one thread, and contexts made after
- *   the fork work. Embree's own threads are lost as well: a process that used Embree before it
- *   forked should use AZULEJO_ENGINE_RASTERISER in the child.
+ *   one with AZULEJO_ERROR_BUSY. A handle must not be freed while another thread uses it. The last
+ *   error belongs to the thread that made the call. After fork, in the child, contexts with more
+ *   than one thread and psp handles made with them return AZULEJO_ERROR_THREADS, since their
+ *   threads exist in the parent only; they can still be freed. Planes, contexts of one thread, and
+ *   contexts made after the fork work. Embree's own threads are lost as well: a process that used
+ *   Embree before it forked should use AZULEJO_ENGINE_RASTERISER in the child.
  *
  * Determinism. The same options and seed give the same bytes, for every number of threads and
  *   whatever was called before, on every processor and system: elementary functions are the
@@ -148,6 +153,13 @@
 /// Threads could not be started, or the context's threads are in the process from which this one
 /// was forked.
 #define AZULEJO_ERROR_THREADS -8
+
+/// A handle is in use by another call, from another thread or around the callback that makes this
+/// one. The same call succeeds later.
+#define AZULEJO_ERROR_BUSY -9
+
+/// The library was built without what the call needs: Embree. azulejo_has_embree tells before.
+#define AZULEJO_ERROR_UNSUPPORTED -10
 
 /// A bug in the library; please report it. Handles that took part in the call can only be freed.
 #define AZULEJO_ERROR_INTERNAL -100
@@ -301,7 +313,7 @@ typedef struct azulejo_points azulejo_points;
 /// before it.
 ///
 /// One call at a time may change it; another one, from another thread or from the progress
-/// callback, is refused. Several threads may copy its points at once.
+/// callback, is refused with AZULEJO_ERROR_BUSY. Several threads may copy its points at once.
 typedef struct azulejo_psp azulejo_psp;
 
 /// Points of a cloud that azulejo_thin selected. Immutable: several threads may read it at once.
@@ -564,7 +576,7 @@ typedef struct azulejo_psp_options {
     /// and along edges longer than the radius, a set that is only filled is filled in one piece and
     /// is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples
     /// than unbiased darts give, at the seams of the cubes. azulejo_psp_create refuses any value
-    /// but the default.
+    /// but the default, azulejo_psp_sample 0 with a `maximal` of 0.
     uint32_t iterations;
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default; with a
@@ -681,6 +693,7 @@ typedef struct azulejo_psp_report {
 typedef struct azulejo_region {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
+    /// Must be 0.
     uint32_t reserved;
     /// The lowest coordinates of the box; default minus infinity.
     double min[3];
@@ -1181,15 +1194,19 @@ extern "C" {
 /// Returns the size of the whole message in bytes, including the NUL.
 size_t azulejo_last_error_message(char *buffer, size_t capacity);
 
+/// The name of a status: "AZULEJO_ERROR_BUSY" for AZULEJO_ERROR_BUSY. NULL for a number that is
+/// none of this library's. The text is never freed.
+const char *azulejo_status_name(azulejo_status status);
+
 /// The version of the library that the program runs with, to be compared with AZULEJO_VERSION.
 uint32_t azulejo_version(void);
 
 /// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
-/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_EMBREE, and everything else is
-/// there: sets on meshes are filled, as by default, or projected by the rasteriser.
+/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_UNSUPPORTED, and everything else
+/// is there: sets on meshes are filled, as by default, or projected by the rasteriser.
 ///
 /// Embree is loaded by the first call that uses it. If the machine has none, such calls are refused
-/// in the same way, and the message names the file that was not found.
+/// with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
 int32_t azulejo_has_embree(void);
 
 /// Makes a context and starts its threads.
@@ -1882,9 +1899,9 @@ azulejo_status azulejo_psp_create(const struct azulejo_context *context,
 /// O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
 /// O(triangles * log triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle and for a
-/// `cosine` above -1; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds what was
-/// finished, and can still grow.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a `cosine` above -1; AZULEJO_ERROR_BUSY while
+/// another call uses the handle; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds
+/// what was finished, and can still grow.
 azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
                                    uint32_t iterations,
                                    struct azulejo_psp_report *report);
@@ -1898,7 +1915,7 @@ azulejo_status azulejo_psp_advance(struct azulejo_psp *psp,
 ///
 /// O(samples + triangles) time, more for parts that darts hit rarely.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
 /// AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 azulejo_status azulejo_psp_fill(struct azulejo_psp *psp, struct azulejo_psp_report *report);
 
@@ -1909,7 +1926,8 @@ azulejo_status azulejo_psp_fill(struct azulejo_psp *psp, struct azulejo_psp_repo
 ///
 /// O(samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
+/// handle.
 azulejo_status azulejo_psp_points(const struct azulejo_psp *psp, struct azulejo_points **out);
 
 /// Frees the handle, but not the points taken from it. Must not be called from its own progress
@@ -1996,8 +2014,8 @@ azulejo_status azulejo_region_init(struct azulejo_region *region, size_t struct_
 ///
 /// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN, and while
-/// another call uses the handle.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
+/// AZULEJO_ERROR_BUSY while another call uses the handle.
 azulejo_status azulejo_psp_erase(struct azulejo_psp *psp,
                                  const struct azulejo_region *region,
                                  struct azulejo_points **erased);
@@ -2010,8 +2028,8 @@ azulejo_status azulejo_psp_erase(struct azulejo_psp *psp,
 ///
 /// O(samples in the cubes of 24 radii that they are in).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has, and while
-/// another call uses the handle; nothing is erased then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
 azulejo_status azulejo_psp_erase_ids(struct azulejo_psp *psp,
                                      const uint64_t *ids,
                                      size_t count,
@@ -2024,8 +2042,8 @@ azulejo_status azulejo_psp_erase_ids(struct azulejo_psp *psp,
 /// O(points + samples in the cubes of 24 radii around them).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
-/// already, or that are too close to a sample or a given sample by now, and while another call uses
-/// the handle; nothing is put back then.
+/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
+/// another call uses the handle. Nothing is put back then.
 azulejo_status azulejo_psp_restore(struct azulejo_psp *psp, const struct azulejo_points *points);
 
 /// Adds given samples to those of the options. Samples of the set that are closer to one than its
@@ -2041,8 +2059,8 @@ azulejo_status azulejo_psp_restore(struct azulejo_psp *psp, const struct azulejo
 ///
 /// O(samples in the cubes of 24 radii that the clearances touch), for each.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle; nothing is
-/// changed then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
+/// Nothing is changed then.
 azulejo_status azulejo_psp_add_given(struct azulejo_psp *psp,
                                      const float *positions,
                                      const double *clearances,
@@ -2055,8 +2073,8 @@ azulejo_status azulejo_psp_add_given(struct azulejo_psp *psp,
 ///
 /// O(given samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has, and while
-/// another call uses the handle; nothing is removed then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
 azulejo_status azulejo_psp_remove_given(struct azulejo_psp *psp, const uint64_t *ids, size_t count);
 
 /// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
@@ -2074,12 +2092,36 @@ azulejo_status azulejo_psp_remove_given(struct azulejo_psp *psp, const uint64_t 
 /// O(surface in and around the edited regions + given samples); the first call on a handle also
 /// O(triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
 /// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
 azulejo_status azulejo_psp_refill(struct azulejo_psp *psp,
                                   uint64_t seed,
                                   struct azulejo_points **added,
                                   struct azulejo_psp_report *report);
+
+/// Samples the part of a mesh in a region, once: no place of the surface in the region is farther
+/// than the radius from all samples or than its clearance from all given ones, up to the tolerance
+/// of azulejo_psp_fill. What lies outside counts as covered. Samples stand in the region, or at
+/// most 6 radii outside it on a triangle that it touches. For many edits of one set see
+/// azulejo_psp_erase.
+///
+/// options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
+/// defaults.
+///
+/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
+///
+/// report: what the call did, or NULL; `rho` is 0, and `coverage` and `uncovered_after` are -1.
+///
+/// O(surface in the region + given samples + triangles / 16); the first call on a mesh
+/// O(triangles).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_psp_sample_region(const struct azulejo_context *context,
+                                         const struct azulejo_mesh *mesh,
+                                         const struct azulejo_psp_options *options,
+                                         const struct azulejo_region *region,
+                                         struct azulejo_points **out,
+                                         struct azulejo_psp_report *report);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
 ///

@@ -77,6 +77,8 @@ public:
     bool ok() const noexcept { return code_ == AZULEJO_OK; }
     /// AZULEJO_OK or one of the AZULEJO_ERROR_ codes.
     azulejo_status code() const noexcept { return code_; }
+    /// The name of the code, such as "AZULEJO_ERROR_BUSY".
+    const char *name() const noexcept { return azulejo_status_name(code_); }
     /// Which argument is wrong, its value and its range; empty for AZULEJO_OK.
     const std::string &message() const noexcept { return message_; }
 

@@ -49,6 +49,9 @@ pub enum Error {
     /// Embree refused: its library is not there, it has no memory, or it cannot build a scene.
     #[error("Embree: {0}")]
     Embree(String),
+    /// The call needs what this build of the library lacks: Embree.
+    #[error("{0}")]
+    Unsupported(&'static str),
     /// Threads could not be started.
     #[error("cannot start {threads} threads: {reason}")]
     Threads {

@@ -19,13 +19,19 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
     }
     match available() {
         Some(limit) if bytes > limit => {
-            let gigabytes = |bytes: f64| bytes / (1u64 << 30) as f64;
-            Err(Error::too_large(
-                argument,
-                format!("{what} need {:.1} GiB, {:.1} GiB are available", gigabytes(bytes), gigabytes(limit)),
-            ))
+            Err(Error::too_large(argument, format!("{what} need {}, {} are available", size(bytes), size(limit))))
         }
         _ => Ok(()),
+    }
+}
+
+/// A number of bytes for people, in the unit in which two sizes that differ by a hundredth look different.
+fn size(bytes: f64) -> String {
+    let mebibytes = bytes / (1u64 << 20) as f64;
+    match mebibytes {
+        ..10.0 => format!("{mebibytes:.2} MiB"),
+        ..1024.0 => format!("{mebibytes:.1} MiB"),
+        _ => format!("{:.2} GiB", mebibytes / 1024.0),
     }
 }
 
@@ -93,8 +99,17 @@ mod tests {
                 panic!("an exabyte was granted")
             };
             assert_eq!(argument, "radius");
-            assert!(reason.starts_with("very many samples need 931322574.6 GiB, "), "{reason}");
+            assert!(reason.starts_with("very many samples need 931322574.62 GiB, "), "{reason}");
         }
+    }
+
+    #[test]
+    fn sizes_have_digits_that_tell_them_apart() {
+        let mebibyte = (1u64 << 20) as f64;
+        let texts = [0.25, 9.5, 101.3, 102.4, 1023.5, 1024.0, 1536.0, 102_400.0].map(|count| size(count * mebibyte));
+        let told =
+            ["0.25 MiB", "9.50 MiB", "101.3 MiB", "102.4 MiB", "1023.5 MiB", "1.00 GiB", "1.50 GiB", "100.00 GiB"];
+        assert_eq!(texts, told);
     }
 
     #[test]

@@ -3,7 +3,6 @@
 
 #![no_main]
 
-use azulejo_c::mesh::azulejo_mesh_free;
 use azulejo_fuzz::input::Input;
 use azulejo_fuzz::{arrays, surface};
 use libfuzzer_sys::fuzz_target;
@@ -12,5 +11,4 @@ fuzz_target!(|bytes: &[u8]| {
     let mut input = Input::new(bytes);
     let Some(mesh) = arrays::mesh(&mut input) else { return };
     surface::sample_kinds(&mesh, &mut input);
-    azulejo_mesh_free(Some(mesh));
 });

@@ -8,7 +8,7 @@ use azulejo_c::domain::azulejo_plane_set;
 use azulejo_c::mesh::*;
 use azulejo_c::spectrum::*;
 use azulejo_c::statistics::*;
-use azulejo_fuzz::calls::{Out, accepted, array, context, create, reported, value};
+use azulejo_fuzz::calls::{Out, Owned, accepted, array, context, create, reported, value};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
 
@@ -99,30 +99,28 @@ impl Set {
         // SAFETY: the array has the given length.
         let make = |out: Out<_>| unsafe { azulejo_spectrum_create(context(), &set, size, stride, out) };
         let Some(one) = create(make) else { return };
-        let both: [&azulejo_spectrum; 2] = [&one, &one];
+        let both: [*mut azulejo_spectrum; 2] = [one.get(); 2];
         // SAFETY: two spectra that live.
         let mean = create(|out| unsafe { azulejo_spectrum_mean((&raw const both).cast(), 2, out) });
         let mean = mean.expect("two spectra of one size have a mean");
-        let length = azulejo_spectrum_size(Some(&mean)) as usize;
+        let length = mean.read(azulejo_spectrum_size) as usize;
         assert_eq!(length, size as usize);
         // SAFETY: the header says how long it is.
-        let power = unsafe { array(azulejo_spectrum_power(Some(&mean)), length * length) };
+        let power = unsafe { array(mean.read(azulejo_spectrum_power), length * length) };
         assert!(power.iter().all(|&power| power >= 0.0 && power.is_finite()));
         let (width, low, high) = (input.number() / 16.0, input.number(), input.number());
         let capacity = input.below(20) as usize;
         let mut annuli = vec![azulejo_annulus { frequency: -1.0, power: -1.0, anisotropy: -1.0, count: 0 }; capacity];
         let start = if capacity == 0 { std::ptr::null_mut() } else { annuli.as_mut_ptr() };
         // SAFETY: the array has this capacity.
-        let radial = |out: Out<_>| unsafe { azulejo_spectrum_radial(Some(&mean), width, start, capacity, out) };
+        let radial = |out: Out<_>| unsafe { azulejo_spectrum_radial(mean.get(), width, start, capacity, out) };
         if let Some(count) = value(radial) {
             assert!(annuli.iter().take(count).all(|annulus| annulus.count >= 2 && annulus.power >= 0.0));
         }
         // SAFETY: the spectrum lives.
-        let measure = |out| unsafe { azulejo_spectrum_measure(Some(&mean), width, low, high, out) };
+        let measure = |out| unsafe { azulejo_spectrum_measure(mean.get(), width, low, high, out) };
         let report = reported(azulejo_spectrum_report_init, measure);
         assert!(report.is_none_or(|report| report.contrast >= 0.0 && report.peak >= 0.0));
-        azulejo_spectrum_free(Some(one));
-        azulejo_spectrum_free(Some(mean));
     }
 }
 
@@ -141,11 +139,10 @@ fn surface(input: &mut Input) {
     let length = corners.map(|[a, b, c]| edge(a, b) + edge(b, c)).sum();
     covered(&mesh, length, &samples, input);
     differ(&mesh, &samples, input);
-    azulejo_mesh_free(Some(mesh));
 }
 
-fn covered(mesh: &azulejo_mesh, length: f64, samples: &[[f32; 3]], input: &mut Input) {
-    let area = azulejo_mesh_area(Some(mesh));
+fn covered(mesh: &Owned<azulejo_mesh>, length: f64, samples: &[[f32; 3]], input: &mut Input) {
+    let area = mesh.read(azulejo_mesh_area);
     let radius = if input.one_in(4) { input.number() } else { (area / f64::from(1 + input.below(100))).sqrt() };
     let pieces = area / (radius * radius) + length / radius;
     if (1e3..1e16).contains(&pieces) {
@@ -153,23 +150,23 @@ fn covered(mesh: &azulejo_mesh, length: f64, samples: &[[f32; 3]], input: &mut I
     }
     let (start, count) = (samples.as_ptr().cast(), samples.len());
     // SAFETY: the array has the given length.
-    let covers = |out| unsafe { azulejo_mesh_coverage(context(), Some(mesh), start, count, radius, out) };
+    let covers = |out| unsafe { azulejo_mesh_coverage(context(), mesh.get(), start, count, radius, out) };
     if let Some(coverage) = reported(azulejo_coverage_report_init, covers) {
         assert!(coverage.covering_radius >= 0.0, "{}", coverage.covering_radius);
         assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
     }
 }
 
-fn differ(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
+fn differ(mesh: &Owned<azulejo_mesh>, samples: &[[f32; 3]], input: &mut Input) {
     let normals: Vec<[f32; 3]> = samples.iter().map(|_| std::array::from_fn(|_| input.coordinate())).collect();
     let direction: [f64; 3] = std::array::from_fn(|_| input.coordinate().into());
     let (start, normals, count, seed) = (samples.as_ptr().cast(), normals.as_ptr().cast(), samples.len(), input.any());
     // SAFETY: the arrays have the given lengths.
     let make = |out: Out<_>| unsafe {
-        azulejo_differences_create(context(), Some(mesh), start, normals, count, direction.as_ptr(), seed, out)
+        azulejo_differences_create(context(), mesh.get(), start, normals, count, direction.as_ptr(), seed, out)
     };
     let Some(one) = create(make) else { return };
-    let both: [&azulejo_differences; 2] = [&one, &one];
+    let both: [*mut azulejo_differences; 2] = [one.get(); 2];
     // SAFETY: two that live.
     let mean = create(|out| unsafe { azulejo_differences_mean((&raw const both).cast(), 2, out) });
     let mean = mean.expect("differences have a mean");
@@ -177,8 +174,8 @@ fn differ(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
     // SAFETY: the header says how long they are.
     let [density, radial] = unsafe {
         [
-            array(azulejo_differences_density(Some(&mean)), cells),
-            array(azulejo_differences_radial(Some(&mean)), AZULEJO_DIFFERENCES_SHELLS as usize),
+            array(mean.read(azulejo_differences_density), cells),
+            array(mean.read(azulejo_differences_radial), AZULEJO_DIFFERENCES_SHELLS as usize),
         ]
     };
     assert!(density.iter().chain(radial).all(|&density| density >= 0.0));
@@ -186,9 +183,7 @@ fn differ(mesh: &azulejo_mesh, samples: &[[f32; 3]], input: &mut Input) {
     let mut power = vec![f64::NAN; frequencies.len()];
     let (from, count, out) = (frequencies.as_ptr(), frequencies.len(), power.as_mut_ptr());
     // SAFETY: both arrays have the given lengths.
-    if accepted(unsafe { azulejo_differences_power(Some(&mean), from, count, out) }) {
+    if accepted(unsafe { azulejo_differences_power(mean.get(), from, count, out) }) {
         assert!(power.iter().all(|power| power.is_finite()), "{power:?}");
     }
-    azulejo_differences_free(Some(one));
-    azulejo_differences_free(Some(mean));
 }

@@ -2,7 +2,6 @@
 
 #![no_main]
 
-use azulejo_c::mesh::azulejo_mesh_free;
 use azulejo_fuzz::input::Input;
 use azulejo_fuzz::{arrays, deformed, surface};
 use libfuzzer_sys::fuzz_target;
@@ -12,5 +11,4 @@ fuzz_target!(|bytes: &[u8]| {
     let Some(mesh) = arrays::mesh(&mut input) else { return };
     surface::sample(&mesh, &mut input);
     deformed::deform(&mesh, &mut input);
-    azulejo_mesh_free(Some(mesh));
 });

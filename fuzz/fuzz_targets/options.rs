@@ -14,7 +14,7 @@ use azulejo_c::merge::*;
 use azulejo_c::mesh::{azulejo_mesh, azulejo_mesh_create};
 use azulejo_c::psp::*;
 use azulejo_c::status::{AZULEJO_OK, azulejo_status};
-use azulejo_fuzz::calls::{Arrays, Patience, accepted, array, context, create};
+use azulejo_fuzz::calls::{Arrays, Owned, Patience, accepted, array, context, create};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
 
@@ -183,7 +183,7 @@ fn merge(input: &mut Input, patience: &Patience) {
     create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, null, 0, out, null_mut()) });
 }
 
-fn triangle() -> Box<azulejo_mesh> {
+fn triangle() -> Owned<azulejo_mesh> {
     let (corners, indices) = ([0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0], [0u32, 1, 2]);
     // SAFETY: three vertices, one triangle.
     create(|out| unsafe { azulejo_mesh_create(corners.as_ptr(), 3, 12, indices.as_ptr(), 1, out) }).expect("a triangle")
@@ -201,8 +201,8 @@ fn psp(input: &mut Input, patience: &Patience) {
     let (mesh, options) = (triangle(), memory.start.cast());
     // SAFETY: the options have the size in their `struct_size`.
     unsafe {
-        create(|out| azulejo_psp_create(context(), Some(&mesh), options, out));
-        create(|out| azulejo_psp_sample(context(), Some(&mesh), options, out, null_mut()));
+        create(|out| azulejo_psp_create(context(), mesh.get(), options, out));
+        create(|out| azulejo_psp_sample(context(), mesh.get(), options, out, null_mut()));
     }
 }
 
@@ -229,7 +229,7 @@ fn adaptive(input: &mut Input, patience: &Patience) {
     put_given!(memory, azulejo_psp_adaptive_options, given, clearances, input);
     let mesh = triangle();
     // SAFETY: the options have the size in their `struct_size`.
-    create(|out| unsafe { azulejo_psp_adaptive_sample(context(), Some(&mesh), memory.start.cast(), out, null_mut()) });
+    create(|out| unsafe { azulejo_psp_adaptive_sample(context(), mesh.get(), memory.start.cast(), out, null_mut()) });
 }
 
 unsafe extern "C-unwind" fn constant(_: *mut std::ffi::c_void, _: *const f64) -> f64 {

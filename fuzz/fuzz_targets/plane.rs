@@ -133,9 +133,15 @@ fn window(options: &azulejo_kdrt_options, given: &Given, patience: &Patience, in
     // SAFETY: the options have the size in their `struct_size`.
     let plane = create(|out: Out<_>| unsafe { azulejo_kdrt_create(context(), options, out) });
     // SAFETY: the corners are two numbers each.
-    let call = |out: Out<_>| unsafe { azulejo_kdrt_window(plane.as_deref(), low.as_ptr(), high.as_ptr(), out) };
+    let call = |out: Out<_>| unsafe {
+        azulejo_kdrt_window(
+            plane.as_ref().map_or(std::ptr::null(), |plane| plane.get().cast_const()),
+            low.as_ptr(),
+            high.as_ptr(),
+            out,
+        )
+    };
     assert_eq!(create(call).map(Set::of).as_ref(), Some(&part));
-    azulejo_kdrt_free(plane);
     let Some(mut whole) = create_set(options) else { panic!("a window without the whole") };
     check_covered(options, given, &whole);
     if options.boundary == 1

@@ -3,7 +3,7 @@
 #![no_main]
 
 use azulejo_c::thin::*;
-use azulejo_fuzz::calls::{Out, Patience, array, context, create};
+use azulejo_fuzz::calls::{Out, Owned, Patience, array, context, create};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
 
@@ -34,16 +34,17 @@ fn thinned<const D: usize>(input: &mut Input) {
     if dimensions == D as u32 {
         check(&cloud, options, &selection);
     }
-    azulejo_selection_free(Some(selection));
 }
 
 /// Compares with naive selections.
-fn check<const D: usize>(cloud: &[[f32; D]], options: &azulejo_thin_options, selection: &azulejo_selection) {
-    let selection = Some(selection);
-    let length = azulejo_selection_count(selection);
+fn check<const D: usize>(cloud: &[[f32; D]], options: &azulejo_thin_options, selection: &Owned<azulejo_selection>) {
+    let length = selection.read(azulejo_selection_count);
     // SAFETY: the header says how long the arrays are; the selection lives.
     let (indices, ranks) = unsafe {
-        (array(azulejo_selection_indices(selection), length), array(azulejo_selection_ranks(selection), length))
+        (
+            array(selection.read(azulejo_selection_indices), length),
+            array(selection.read(azulejo_selection_ranks), length),
+        )
     };
     let is_progressive = options.order == AZULEJO_ORDER_PROGRESSIVE;
     if !is_progressive && options.count == 0 {

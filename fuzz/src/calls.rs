@@ -7,29 +7,89 @@ use std::mem::MaybeUninit;
 use std::slice;
 use std::sync::OnceLock;
 
-use azulejo_c::context::{azulejo_context, azulejo_context_create};
+use azulejo_c::context::*;
+use azulejo_c::differences::*;
+use azulejo_c::kept::*;
+use azulejo_c::mesh::*;
 use azulejo_c::points::*;
+use azulejo_c::psp::*;
+use azulejo_c::spectrum::*;
 use azulejo_c::status::*;
+use azulejo_c::thin::*;
+
+/// A handle, which its own function frees when it is dropped.
+pub struct Owned<T: Freed>(*mut T);
+
+/// A type that the library makes handles of.
+pub trait Freed {
+    /// The function that frees one.
+    const FREE: unsafe extern "C" fn(*mut Self);
+}
+
+macro_rules! freed {
+    ($($name:ty: $free:ident),*) => {
+        $(impl Freed for $name {
+            const FREE: unsafe extern "C" fn(*mut Self) = $free;
+        })*
+    };
+}
+freed!(
+    azulejo_context: azulejo_context_free,
+    azulejo_kdrt: azulejo_kdrt_free,
+    azulejo_mesh: azulejo_mesh_free,
+    azulejo_psp: azulejo_psp_free,
+    azulejo_points: azulejo_points_free,
+    azulejo_selection: azulejo_selection_free,
+    azulejo_spectrum: azulejo_spectrum_free,
+    azulejo_differences: azulejo_differences_free
+);
+
+impl<T: Freed> Owned<T> {
+    /// The handle for a call.
+    pub fn get(&self) -> *mut T {
+        self.0
+    }
+
+    /// What an accessor of the library tells of the handle.
+    pub fn read<R>(&self, accessor: unsafe extern "C" fn(*const T) -> R) -> R {
+        // SAFETY: the handle lives, and that is all that accessors ask for.
+        unsafe { accessor(self.0) }
+    }
+}
+
+impl<T: Freed> Drop for Owned<T> {
+    fn drop(&mut self) {
+        // SAFETY: the only owner.
+        unsafe { T::FREE(self.0) }
+    }
+}
+
+// SAFETY: handles may be used from any thread.
+unsafe impl<T: Freed> Send for Owned<T> {}
+// SAFETY: likewise, by several at once.
+unsafe impl<T: Freed> Sync for Owned<T> {}
 
 /// A context of one thread, so that an input always does the same.
-pub fn context() -> Option<&'static azulejo_context> {
-    static CONTEXT: OnceLock<Box<azulejo_context>> = OnceLock::new();
-    Some(CONTEXT.get_or_init(|| create(|out| azulejo_context_create(1, out)).expect("a context of one thread")))
+pub fn context() -> *const azulejo_context {
+    static CONTEXT: OnceLock<Owned<azulejo_context>> = OnceLock::new();
+    // SAFETY: the output is there.
+    let make = |out: Out<_>| unsafe { azulejo_context_create(1, out) };
+    CONTEXT.get_or_init(|| create(make).expect("a context of one thread")).get()
 }
 
 /// Where a call writes what it makes.
-pub type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
+pub type Out<T> = *mut T;
 
 /// The handle that a call makes, unless it refuses.
-pub fn create<T>(call: impl FnOnce(Out<Box<T>>) -> azulejo_status) -> Option<Box<T>> {
-    value(call)
+pub fn create<T: Freed>(call: impl FnOnce(Out<*mut T>) -> azulejo_status) -> Option<Owned<T>> {
+    value(call).map(Owned)
 }
 
 /// The value that a call writes, unless it refuses.
 pub fn value<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> Option<T> {
     let mut out = MaybeUninit::uninit();
     // SAFETY: a call that succeeds has written its output.
-    accepted(call(Some(&mut out))).then(|| unsafe { out.assume_init() })
+    accepted(call(out.as_mut_ptr())).then(|| unsafe { out.assume_init() })
 }
 
 /// A report for a call to write, as its init function makes it.
@@ -56,7 +116,7 @@ pub fn accepted(status: azulejo_status) -> bool {
     if status == AZULEJO_OK {
         return true;
     }
-    assert!((AZULEJO_ERROR_THREADS..AZULEJO_OK).contains(&status), "status {status}: {}", last_error());
+    assert!((AZULEJO_ERROR_UNSUPPORTED..AZULEJO_OK).contains(&status), "status {status}: {}", last_error());
     let message = last_error();
     assert!(!message.is_empty() && message.len() < 2000 && !message.contains('\n'), "{message:?}");
     false
@@ -119,19 +179,21 @@ pub struct Arrays<'a> {
 }
 
 impl<'a> Arrays<'a> {
-    pub fn of(points: &'a azulejo_points) -> Self {
-        let points = Some(points);
-        let count = azulejo_points_count(points);
+    pub fn of(points: &'a Owned<azulejo_points>) -> Self {
+        let count = points.read(azulejo_points_count);
         // SAFETY: the header says how long the arrays are, and the set is borrowed as long as they are used.
         unsafe {
             Self {
-                positions: array(azulejo_points_positions(points), count * azulejo_points_dimension(points) as usize),
-                triangles: array(azulejo_points_triangles(points), count),
-                barycentrics: array(azulejo_points_barycentrics(points), 2 * count),
-                normals: array(azulejo_points_normals(points), 3 * count),
-                interpolated: array(azulejo_points_interpolated_normals(points), 3 * count),
-                radii: array(azulejo_points_radii(points), count),
-                ranks: array(azulejo_points_ranks(points), count),
+                positions: array(
+                    points.read(azulejo_points_positions),
+                    count * points.read(azulejo_points_dimension) as usize,
+                ),
+                triangles: array(points.read(azulejo_points_triangles), count),
+                barycentrics: array(points.read(azulejo_points_barycentrics), 2 * count),
+                normals: array(points.read(azulejo_points_normals), 3 * count),
+                interpolated: array(points.read(azulejo_points_interpolated_normals), 3 * count),
+                radii: array(points.read(azulejo_points_radii), count),
+                ranks: array(points.read(azulejo_points_ranks), count),
             }
         }
     }

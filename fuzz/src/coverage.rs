@@ -2,7 +2,7 @@
 
 use azulejo_c::mesh::*;
 
-use crate::calls::{Arrays, array};
+use crate::calls::{Arrays, Owned, array};
 use crate::surface::{Corners, Given};
 
 type Place = [f64; 3];
@@ -97,15 +97,15 @@ impl Field<'_> {
 /// A place that is not covered, of those triangles that are to be. Meshes with a mask of their own are left out, since
 /// it is not known here.
 pub(crate) fn uncovered(
-    mesh: &azulejo_mesh,
+    mesh: &Owned<azulejo_mesh>,
     corners: &Corners,
     field: &Field,
     balls: &[Ball],
     is_asked: impl Fn(usize) -> bool,
 ) -> Option<Place> {
     // SAFETY: the header says how long the array is; the mesh is borrowed.
-    let indices = unsafe { array(azulejo_mesh_indices(Some(mesh)), 3 * azulejo_mesh_triangle_count(Some(mesh))) };
-    if corners.0.iter().map(area).sum::<f64>() > (1.0 + 1e-6) * azulejo_mesh_area(Some(mesh)) {
+    let indices = unsafe { array(mesh.read(azulejo_mesh_indices), 3 * mesh.read(azulejo_mesh_triangle_count)) };
+    if corners.0.iter().map(area).sum::<f64>() > (1.0 + 1e-6) * mesh.read(azulejo_mesh_area) {
         return None;
     }
     let spacing = 6.0 * corners.largest_coordinate() * f64::from(f32::EPSILON);

@@ -2,36 +2,35 @@
 
 use azulejo_c::mesh::*;
 
-use crate::calls::{Arrays, Out, create};
+use crate::calls::{Arrays, Out, Owned, create};
 use crate::input::Input;
 use crate::surface::Corners;
 
 /// Moves the vertices of a mesh anywhere, and evaluates places on it and off it as the header says.
-pub fn deform(mesh: &azulejo_mesh, input: &mut Input) {
-    let count = azulejo_mesh_vertex_count(Some(mesh)) + usize::from(input.one_in(32));
+pub fn deform(mesh: &Owned<azulejo_mesh>, input: &mut Input) {
+    let count = mesh.read(azulejo_mesh_vertex_count) + usize::from(input.one_in(32));
     let padding = input.below(3) as usize;
     let stride = 3 + padding;
     let floats: Vec<f32> = (0..stride * count).map(|_| input.coordinate()).collect();
     let bytes = if input.one_in(32) { input.below(14) as usize } else { 4 * stride };
     // SAFETY: where the stride is accepted it is at most that of the array.
-    let make = |out: Out<_>| unsafe { azulejo_mesh_deform(Some(mesh), floats.as_ptr(), count, bytes, out) };
+    let make = |out: Out<_>| unsafe { azulejo_mesh_deform(mesh.get(), floats.as_ptr(), count, bytes, out) };
     let Some(moved) = create(make) else { return };
-    let triangles = azulejo_mesh_triangle_count(Some(&moved));
-    assert_eq!((azulejo_mesh_vertex_count(Some(&moved)), triangles), (count, azulejo_mesh_triangle_count(Some(mesh))));
+    let triangles = moved.read(azulejo_mesh_triangle_count);
+    assert_eq!((moved.read(azulejo_mesh_vertex_count), triangles), (count, mesh.read(azulejo_mesh_triangle_count)));
     // A mask may leave out all that has an area.
-    assert!(azulejo_mesh_area(Some(&moved)) > 0.0 || azulejo_mesh_area(Some(mesh)) == 0.0);
-    assert_eq!(azulejo_mesh_has_normals(Some(&moved)), 0);
+    assert!(moved.read(azulejo_mesh_area) > 0.0 || mesh.read(azulejo_mesh_area) == 0.0);
+    assert_eq!(moved.read(azulejo_mesh_has_normals), 0);
     places(&moved, triangles, input);
-    azulejo_mesh_free(Some(moved));
 }
 
-fn places(mesh: &azulejo_mesh, triangles: usize, input: &mut Input) {
+fn places(mesh: &Owned<azulejo_mesh>, triangles: usize, input: &mut Input) {
     let places = input.below(20) as usize;
     let triangle = |input: &mut Input| if input.one_in(64) { input.any() } else { input.below(triangles as u32) };
     let of: Vec<u32> = (0..places).map(|_| triangle(input)).collect();
     let at: Vec<[f32; 2]> = (0..places).map(|_| [input.coordinate(), input.coordinate()]).collect();
     // SAFETY: both arrays have the given lengths.
-    let make = |out: Out<_>| unsafe { azulejo_mesh_points(Some(mesh), of.as_ptr(), at.as_ptr().cast(), places, out) };
+    let make = |out: Out<_>| unsafe { azulejo_mesh_points(mesh.get(), of.as_ptr(), at.as_ptr().cast(), places, out) };
     let Some(points) = create(make) else { return };
     let (corners, set) = (Corners::of(mesh), Arrays::of(&points));
     assert_eq!((set.triangles, set.barycentrics), (&of[..], at.as_flattened()));

@@ -6,7 +6,7 @@ use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use azulejo_c::mesh::{azulejo_mesh_free, azulejo_mesh_load};
+use azulejo_c::mesh::azulejo_mesh_load;
 
 use crate::calls::create;
 use crate::input::Input;
@@ -21,7 +21,6 @@ pub fn load_and_sample(extension: &str, bytes: &[u8]) {
         // SAFETY: the string ends with a NUL.
         if let Some(mesh) = create(|out| unsafe { azulejo_mesh_load(name.as_ptr(), out) }) {
             surface::sample(&mesh, &mut Input::new(bytes));
-            azulejo_mesh_free(Some(mesh));
         }
     }
 }

@@ -8,7 +8,7 @@ use azulejo_c::adaptive::azulejo_psp_adaptive_options;
 use azulejo_c::mesh::*;
 use azulejo_c::mesh_density::*;
 
-use crate::calls::{Arrays, Out, check_distances, context, create};
+use crate::calls::{Arrays, Out, Owned, check_distances, context, create};
 use crate::coverage::{Ball, Field, uncovered};
 use crate::input::Input;
 use crate::surface::Corners;
@@ -40,7 +40,7 @@ unsafe extern "C-unwind" fn density_at(user: *mut c_void, position: *const f64) 
 }
 
 /// Samples a mesh with a density of at most 1, for which there are few samples of this radius.
-pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input: &mut Input) {
+pub(crate) fn sample(mesh: &Owned<azulejo_mesh>, corners: &Corners, radius: f64, input: &mut Input) {
     // Radii are limited where densities fall far; where they do not, it is known what every place has.
     let falls_far = !input.one_in(4);
     let value = |input: &mut Input| match input.below(64) {
@@ -49,7 +49,7 @@ pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input:
         _ if falls_far => f32::from(input.any::<u8>()) / 255.0,
         _ => 0.25 + f32::from(input.any::<u8>()) / 340.0,
     };
-    let (vertices, triangles) = (azulejo_mesh_vertex_count(Some(mesh)), azulejo_mesh_triangle_count(Some(mesh)));
+    let (vertices, triangles) = (mesh.read(azulejo_mesh_vertex_count), mesh.read(azulejo_mesh_triangle_count));
     let values: Vec<f32> = (0..vertices).map(|_| value(input)).collect();
     let (width, height) = (input.below(5) as usize, input.below(5) as usize);
     let pixels: Vec<f32> = (0..width * height).map(|_| value(input)).collect();
@@ -107,7 +107,7 @@ pub(crate) fn sample(mesh: &azulejo_mesh, corners: &Corners, radius: f64, input:
     options.seed = input.any();
     // SAFETY: the structs have the sizes in their `struct_size`, and the arrays as long.
     let call = |out: Out<_>| unsafe {
-        azulejo_psp_adaptive_with_density(context(), Some(mesh), &options, &density, out, null_mut())
+        azulejo_psp_adaptive_with_density(context(), mesh.get(), &options, &density, out, null_mut())
     };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);

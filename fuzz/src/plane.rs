@@ -4,7 +4,7 @@ use azulejo_c::kdrt::azulejo_kdrt_options;
 use azulejo_c::points::azulejo_points;
 use azulejo_core::{Boundary, Domain};
 
-use crate::calls::{Arrays, check_distances};
+use crate::calls::{Arrays, Owned, check_distances};
 use crate::disks::find_gap;
 use crate::input::Input;
 
@@ -98,7 +98,7 @@ pub struct Set {
 }
 
 impl Set {
-    pub fn of(points: Box<azulejo_points>) -> Self {
+    pub fn of(points: Owned<azulejo_points>) -> Self {
         let ranks = Arrays::of(&points).ranks.to_vec();
         Self { positions: owned(points), ranks }
     }
@@ -175,7 +175,7 @@ pub fn check(options: &azulejo_kdrt_options, samples: &[[f32; 2]]) {
     assert!(samples.iter().all(|&[x, y]| inside(x, 0) && inside(y, 1)));
 }
 
-pub fn owned(points: Box<azulejo_points>) -> Vec<[f32; 2]> {
+pub fn owned(points: Owned<azulejo_points>) -> Vec<[f32; 2]> {
     Arrays::of(&points).positions.as_chunks::<2>().0.to_vec()
 }
 

@@ -1,6 +1,6 @@
 //! All calls on a mesh, whatever its triangles: both engines, in steps, with radii that vary.
 
-use std::ptr::{NonNull, null_mut};
+use std::ptr::null_mut;
 
 use azulejo_c::classes::azulejo_classes;
 use azulejo_c::mesh::*;
@@ -10,7 +10,7 @@ use azulejo_c::psp_classes::*;
 use azulejo_c::psp_report::azulejo_psp_report_init;
 use azulejo_c::thin::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 
-use crate::calls::{Arrays, Out, Patience, accepted, array, check_distances, context, create, report};
+use crate::calls::{Arrays, Out, Owned, Patience, accepted, array, check_distances, context, create, report};
 use crate::coverage::{Ball, Field, uncovered};
 use crate::input::Input;
 use crate::surface_relaxation::relax;
@@ -23,14 +23,13 @@ const SAMPLES: f64 = 100.0;
 pub(crate) struct Corners(pub Vec<[[f64; 3]; 3]>);
 
 impl Corners {
-    pub(crate) fn of(mesh: &azulejo_mesh) -> Self {
+    pub(crate) fn of(mesh: &Owned<azulejo_mesh>) -> Self {
         let (positions, triangles) = {
-            let mesh = Some(mesh);
             // SAFETY: the header says how long the arrays are; the mesh is borrowed.
             unsafe {
                 (
-                    array(azulejo_mesh_positions(mesh), 3 * azulejo_mesh_vertex_count(mesh)),
-                    array(azulejo_mesh_indices(mesh), 3 * azulejo_mesh_triangle_count(mesh)),
+                    array(mesh.read(azulejo_mesh_positions), 3 * mesh.read(azulejo_mesh_vertex_count)),
+                    array(mesh.read(azulejo_mesh_indices), 3 * mesh.read(azulejo_mesh_triangle_count)),
                 )
             }
         };
@@ -91,10 +90,10 @@ struct Request {
 impl Request {
     /// A radius that gives few samples, around some that are given. None if there would be too many for the time that a
     /// fuzz target has.
-    fn any(mesh: &azulejo_mesh, input: &mut Input) -> Option<Self> {
+    fn any(mesh: &Owned<azulejo_mesh>, input: &mut Input) -> Option<Self> {
         let corners = Corners::of(mesh);
         let samples = 1.0 + f64::from(input.any::<u8>() / 2);
-        let area = azulejo_mesh_area(Some(mesh));
+        let area = mesh.read(azulejo_mesh_area);
         let radius = (area / samples).sqrt().max(corners.length() / SAMPLES);
         let radius = if input.one_in(16) { input.number() } else { radius };
         if area / (radius * radius) + corners.length() / radius > 10.0 * SAMPLES {
@@ -125,7 +124,7 @@ impl Request {
 }
 
 /// Samples a mesh at once, in steps, and with radii that vary, and relaxes what comes out.
-pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
+pub fn sample(mesh: &Owned<azulejo_mesh>, input: &mut Input) {
     let Some(Request { corners, radius, patience, given, options }) = Request::any(mesh, input) else { return };
     at_once(mesh, &corners, &options, &given);
     in_steps(mesh, &corners, &options, &given, &patience, input);
@@ -134,7 +133,7 @@ pub fn sample(mesh: &azulejo_mesh, input: &mut Input) {
 }
 
 /// Samples a mesh by density, in progressive order, or with several classes.
-pub fn sample_kinds(mesh: &azulejo_mesh, input: &mut Input) {
+pub fn sample_kinds(mesh: &Owned<azulejo_mesh>, input: &mut Input) {
     let Some(Request { corners, radius, given, options, .. }) = &Request::any(mesh, input) else { return };
     match input.below(3) {
         0 => crate::mesh_density::sample(mesh, corners, *radius, input),
@@ -173,7 +172,7 @@ impl Given {
     }
 
     /// Each sample keeps the clearance of each.
-    pub(crate) fn check(&self, points: &azulejo_points, radius: f64) {
+    pub(crate) fn check(&self, points: &Owned<azulejo_points>, radius: f64) {
         let (positions, _) = Arrays::of(points).positions.as_chunks::<3>();
         for (i, given) in self.positions.iter().enumerate() {
             let clearance = self.clearances.as_ref().map_or(radius, |clearances| clearances[i]);
@@ -186,19 +185,19 @@ impl Given {
     }
 }
 
-fn check_uniform(corners: &Corners, points: &azulejo_points, radius: f64) {
+fn check_uniform(corners: &Corners, points: &Owned<azulejo_points>, radius: f64) {
     let set = Arrays::of(points);
     corners.check(&set);
     let (positions, _) = set.positions.as_chunks::<3>();
     check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), |_, _| radius);
 }
 
-fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, given: &Given) {
+fn at_once(mesh: &Owned<azulejo_mesh>, corners: &Corners, options: &azulejo_psp_options, given: &Given) {
     let mut report = report(azulejo_psp_report_init);
     // SAFETY: the structs have the sizes in their `struct_size`.
-    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
+    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), mesh.get(), options, out, &raw mut report) };
     let Some(points) = create(call) else { return };
-    assert_eq!(report.samples, azulejo_points_count(Some(&points)) as u64);
+    assert_eq!(report.samples, points.read(azulejo_points_count) as u64);
     given.check(&points, options.radius);
     if options.cosine == -1.0 {
         check_uniform(corners, &points, options.radius);
@@ -210,9 +209,9 @@ fn at_once(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options
 
 /// No place of the mesh is farther from the samples than a distance, unless what is given covers it.
 fn check_covered(
-    mesh: &azulejo_mesh,
+    mesh: &Owned<azulejo_mesh>,
     corners: &Corners,
-    points: &azulejo_points,
+    points: &Owned<azulejo_points>,
     coverage: f64,
     given: &Given,
     radius: f64,
@@ -223,7 +222,13 @@ fn check_covered(
 }
 
 /// Sets of exact counts, and in progressive order.
-fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, given: &Given, input: &mut Input) {
+fn ordered(
+    mesh: &Owned<azulejo_mesh>,
+    corners: &Corners,
+    options: &azulejo_psp_options,
+    given: &Given,
+    input: &mut Input,
+) {
     let count = if input.one_in(2) { input.below(60) as usize } else { 0 };
     let is_progressive = count == 0 || input.one_in(2);
     let options = &azulejo_psp_options {
@@ -236,7 +241,7 @@ fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options
     };
     let mut report = report(azulejo_psp_report_init);
     // SAFETY: the structs have the sizes in their `struct_size`.
-    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), Some(mesh), options, out, &raw mut report) };
+    let call = |out: Out<_>| unsafe { azulejo_psp_sample(context(), mesh.get(), options, out, &raw mut report) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
     corners.check(&set);
@@ -250,7 +255,7 @@ fn ordered(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options
 }
 
 /// Sets of several classes, with any matrix and masks.
-fn of_classes(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_options, input: &mut Input) {
+fn of_classes(mesh: &Owned<azulejo_mesh>, corners: &Corners, options: &azulejo_psp_options, input: &mut Input) {
     let count = 1 + input.below(4) as usize;
     let mut radii = vec![0.0; count * count];
     for i in 0..count {
@@ -283,11 +288,11 @@ fn of_classes(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_opti
         ..*options
     };
     // SAFETY: the structs have the sizes in their `struct_size`, and the arrays as long.
-    let call = |out: Out<_>| unsafe { azulejo_psp_sample_classes(context(), Some(mesh), options, &classes, out) };
+    let call = |out: Out<_>| unsafe { azulejo_psp_sample_classes(context(), mesh.get(), options, &classes, out) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
     corners.check(&set);
-    let start = azulejo_points_classes(Some(&points));
+    let start = points.read(azulejo_points_classes);
     // SAFETY: there is one for each sample.
     let class: Vec<usize> = (0..set.triangles.len()).map(|i| unsafe { start.add(i).read() } as usize).collect();
     let may_stand = |i: usize| masks.get(set.triangles[i] as usize).is_none_or(|mask| mask >> class[i] & 1 == 1);
@@ -307,7 +312,7 @@ fn of_classes(mesh: &azulejo_mesh, corners: &Corners, options: &azulejo_psp_opti
 }
 
 fn in_steps(
-    mesh: &azulejo_mesh,
+    mesh: &Owned<azulejo_mesh>,
     corners: &Corners,
     options: &azulejo_psp_options,
     given: &Given,
@@ -316,13 +321,13 @@ fn in_steps(
 ) {
     let options = &azulejo_psp_options { iterations: 1, maximal: 1, cosine: -1.0, ..*options };
     // SAFETY: the options have the size in their `struct_size`.
-    let create_set = |out: Out<_>| unsafe { azulejo_psp_create(context(), Some(mesh), options, out) };
-    let Some(mut set) = create(create_set) else { return };
+    let create_set = |out: Out<_>| unsafe { azulejo_psp_create(context(), mesh.get(), options, out) };
+    let Some(set) = create(create_set) else { return };
     let mut is_filled = false;
     for _ in 0..input.below(4) {
         let left = if input.one_in(2) { input.below(20) } else { u32::MAX };
         patience.again(left);
-        let handle = Some(NonNull::from(&mut *set));
+        let handle = set.get();
         let fills = input.one_in(2);
         // SAFETY: the handle is alive; nobody else uses it.
         let status = unsafe {
@@ -330,10 +335,10 @@ fn in_steps(
         };
         is_filled |= accepted(status) && fills;
     }
-    let points = create(|out| azulejo_psp_points(Some(&set), out)).expect("the set is not in use");
+    // SAFETY: the handle lives.
+    let points = create(|out: Out<_>| unsafe { azulejo_psp_points(set.get(), out) }).expect("the set is not in use");
     check_uniform(corners, &points, options.radius);
     if is_filled {
         check_covered(mesh, corners, &points, options.radius, given, options.radius);
     }
-    azulejo_psp_free(Some(set));
 }

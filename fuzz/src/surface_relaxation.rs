@@ -6,12 +6,12 @@ use azulejo_c::mesh::*;
 use azulejo_c::remesh::{azulejo_dcr_remesh, azulejo_dcr_remesh_report_init};
 use azulejo_c::surface::*;
 
-use crate::calls::{Arrays, Out, Patience, array, context, create, report};
+use crate::calls::{Arrays, Out, Owned, Patience, array, context, create, report};
 use crate::input::Input;
 use crate::surface::Corners;
 
 /// Samples anywhere, some on edges and on each other, walk over the mesh.
-pub(crate) fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
+pub(crate) fn relax(mesh: &Owned<azulejo_mesh>, corners: &Corners, input: &mut Input) {
     let patience = Patience::new(if input.one_in(4) { input.below(20) } else { u32::MAX });
     let options = azulejo_dcr_surface_options {
         struct_size: size_of::<azulejo_dcr_surface_options>() as u32,
@@ -40,7 +40,7 @@ pub(crate) fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
     let (start, uv) = (triangles.as_ptr(), barycentrics.as_ptr().cast());
     // SAFETY: the options have the size in their `struct_size`, and so are the arrays.
     let call = |out: Out<_>| unsafe {
-        azulejo_dcr_surface_relax(context(), Some(mesh), &options, start, uv, count, out, null_mut())
+        azulejo_dcr_surface_relax(context(), mesh.get(), &options, start, uv, count, out, null_mut())
     };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
@@ -56,17 +56,16 @@ pub(crate) fn relax(mesh: &azulejo_mesh, corners: &Corners, input: &mut Input) {
 }
 
 /// The triangles of samples are a mesh of which no edge has two triangles on one side, as the report states.
-fn remesh(mesh: &azulejo_mesh, set: &Arrays) {
+fn remesh(mesh: &Owned<azulejo_mesh>, set: &Arrays) {
     let count = set.triangles.len();
     let mut told = report(azulejo_dcr_remesh_report_init);
     let (start, uv) = (set.triangles.as_ptr(), set.barycentrics.as_ptr());
     // SAFETY: the arrays have as many elements as samples.
-    let call = |out: Out<_>| unsafe { azulejo_dcr_remesh(context(), Some(mesh), start, uv, count, out, &mut told) };
+    let call = |out: Out<_>| unsafe { azulejo_dcr_remesh(context(), mesh.get(), start, uv, count, out, &mut told) };
     let Some(made) = create(call) else { return };
-    let made: Option<&azulejo_mesh> = Some(&made);
     // SAFETY: the header says how long the array is; the mesh is borrowed.
-    let indices = unsafe { array(azulejo_mesh_indices(made), 3 * azulejo_mesh_triangle_count(made)) };
-    assert_eq!(azulejo_mesh_vertex_count(made), count);
+    let indices = unsafe { array(made.read(azulejo_mesh_indices), 3 * made.read(azulejo_mesh_triangle_count)) };
+    assert_eq!(made.read(azulejo_mesh_vertex_count), count);
     let mut edges: Vec<[u32; 2]> =
         indices.as_chunks::<3>().0.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     edges.sort_unstable();

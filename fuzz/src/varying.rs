@@ -8,7 +8,7 @@ use azulejo_c::adaptive::*;
 use azulejo_c::mesh::*;
 use azulejo_c::thin::AZULEJO_ORDER_ANY;
 
-use crate::calls::{Arrays, Out, check_distances, context, create};
+use crate::calls::{Arrays, Out, Owned, check_distances, context, create};
 use crate::coverage::{Ball, Field, uncovered};
 use crate::input::Input;
 use crate::surface::{Corners, Given};
@@ -48,9 +48,9 @@ unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -
     unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
 }
 
-pub(crate) fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, given: &Given, input: &mut Input) {
+pub(crate) fn adaptive(mesh: &Owned<azulejo_mesh>, corners: &Corners, radius: f64, given: &Given, input: &mut Input) {
     let radii: Vec<f32> =
-        (0..azulejo_mesh_vertex_count(Some(mesh)))
+        (0..mesh.read(azulejo_mesh_vertex_count))
             .map(|_| {
                 if input.one_in(64) { input.coordinate() } else { radius as f32 * (1.0 + f32::from(input.any::<u8>())) }
             })
@@ -82,7 +82,7 @@ pub(crate) fn adaptive(mesh: &azulejo_mesh, corners: &Corners, radius: f64, give
         quotient: if input.one_in(4) { [1.5, 1.3, input.number()][input.below(3) as usize] } else { 0.0 },
     };
     // SAFETY: the options have the size in their `struct_size`, and so is the array.
-    let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), Some(mesh), &options, out, null_mut()) };
+    let call = |out: Out<_>| unsafe { azulejo_psp_adaptive_sample(context(), mesh.get(), &options, out, null_mut()) };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
     corners.check(&set);

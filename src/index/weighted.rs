@@ -52,7 +52,7 @@ impl Weights {
     }
 
     /// A random item, and a place within its weight, from 0 up to the weight.
-    #[inline]
+    #[inline(always)]
     pub fn pick_within(&self, rng: &mut Rng) -> (u32, f64) {
         let (share, last) = (rng.unit(), self.ends.len() - 1);
         let mut item = self.guide[(share * self.ends.len() as f64) as usize] as usize;

@@ -9,7 +9,7 @@ use crate::job::Job;
 use crate::trace::{Hit, Ray};
 
 fn refusal() -> Error {
-    Error::Embree("this build has none (feature embree, AZULEJO_EMBREE)".to_owned())
+    Error::Unsupported("Embree: this build has none (feature embree, AZULEJO_EMBREE)")
 }
 
 /// Triangles to be traced: there is no way to make one in a build without Embree.
@@ -19,7 +19,7 @@ pub struct Scene {
 
 impl Scene {
     /// # Errors
-    /// [`Error::Embree`], always.
+    /// [`Error::Unsupported`], always.
     pub fn new(_positions: &[[f32; 3]], _triangles: &[[u32; 3]], _num_threads: usize) -> Result<Self> {
         Err(refusal())
     }
@@ -64,7 +64,7 @@ pub struct HostBuffers {
 /// None is needed here: nothing is read.
 ///
 /// # Errors
-/// [`Error::Embree`], always.
+/// [`Error::Unsupported`], always.
 pub unsafe fn host_buffers(_scene: *mut c_void, _geometries: &[u32]) -> Result<Vec<HostBuffers>> {
     Err(refusal())
 }

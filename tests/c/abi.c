@@ -308,6 +308,8 @@ CONSTANT(AZULEJO_ERROR_CANCELLED, -5);
 CONSTANT(AZULEJO_ERROR_OUT_OF_MEMORY, -6);
 CONSTANT(AZULEJO_ERROR_EMBREE, -7);
 CONSTANT(AZULEJO_ERROR_THREADS, -8);
+CONSTANT(AZULEJO_ERROR_BUSY, -9);
+CONSTANT(AZULEJO_ERROR_UNSUPPORTED, -10);
 CONSTANT(AZULEJO_ERROR_INTERNAL, -100);
 CONSTANT(AZULEJO_BOUNDARY_PERIODIC, 0);
 CONSTANT(AZULEJO_BOUNDARY_BOUNDED, 1);
@@ -402,10 +404,11 @@ static void signatures(void) {
                                                 double *) = azulejo_plane_radial_distribution;
     azulejo_status (*spectrum_create)(const azulejo_context *, const azulejo_plane_set *, uint32_t, uint32_t,
                                       azulejo_spectrum **) = azulejo_spectrum_create;
+    const char *(*status_name)(azulejo_status) = azulejo_status_name;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
     CHECK(psp_points && psp_sample && psp_sample_classes && dcr_relax && dcr_relax_classes && last_error_message && kdrt_sample_window && kdrt_stream);
-    CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax);
+    CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);

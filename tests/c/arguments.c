@@ -32,6 +32,13 @@ static double largest_number(const char *text) {
     return largest;
 }
 
+static void names(void) {
+    CHECK(strcmp(azulejo_status_name(AZULEJO_OK), "AZULEJO_OK") == 0);
+    CHECK(strcmp(azulejo_status_name(AZULEJO_ERROR_BUSY), "AZULEJO_ERROR_BUSY") == 0);
+    CHECK(strcmp(azulejo_status_name(AZULEJO_ERROR_INTERNAL), "AZULEJO_ERROR_INTERNAL") == 0);
+    CHECK(azulejo_status_name(1) == NULL && azulejo_status_name(INT32_MIN) == NULL);
+}
+
 static void contexts(void) {
     azulejo_context *out = UNTOUCHED;
     REFUSED(INVALID, "out", azulejo_context_create(1, NULL));
@@ -230,7 +237,7 @@ static void meshes(void) {
 }
 
 static void psp(void) {
-    azulejo_psp_options good = psp_options(0.2);
+    azulejo_psp_options good = psp_options(0.2), zeros;
     const float bad_given[6] = {0, 0, 0, 0, 0, INFINITY}, good_given[6] = {0, 0, 0, 1, 1, 1};
     const double bad_clearances[3] = {-1, 0.5, NAN};
     azulejo_points *points = UNTOUCHED;
@@ -284,6 +291,10 @@ static void psp(void) {
     CHECK(largest_number(last_error()) > 0.9e12 && largest_number(last_error()) < 1.1e12);
     PSP(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 1e-300);
 #undef PSP
+    memset(&zeros, 0, sizeof zeros);
+    zeros.struct_size = sizeof zeros;
+    zeros.radius = 0.2;
+    REFUSED(INVALID, "iterations: 0 with maximal 0", azulejo_psp_sample(context, cube, &zeros, &points, &report));
     good.iterations = 2;
     REFUSED(INVALID, "iterations: 2 has no effect in azulejo_psp_create", azulejo_psp_create(context, cube, &good, &out));
     good.iterations = AZULEJO_ITERATIONS_DEFAULT;
@@ -381,6 +392,7 @@ int main(void) {
 
     context = make_context(2);
     cube = make_cube();
+    names();
     contexts();
     kdrt();
     kdrt_windows();

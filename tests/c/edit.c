@@ -137,7 +137,7 @@ static void given_samples_come_and_go(void) {
     ACCEPTED(azulejo_psp_add_given(set, NULL, NULL, 0, NULL, NULL));
     REFUSED(INVALID, "given_positions", azulejo_psp_add_given(set, NULL, NULL, 1, &none, NULL));
     REFUSED(INVALID, "given_clearances: [0] is -1", azulejo_psp_add_given(set, places[0], (double[]){-1}, 1, &none, NULL));
-    REFUSED(INVALID, "first_id", azulejo_psp_add_given(set, places[0], NULL, 1, (uint64_t *)((char *)&none + 1), NULL));
+    REFUSED(INVALID, "first_id: ", azulejo_psp_add_given(set, places[0], NULL, 1, (uint64_t *)(void *)((char *)&none + 1), NULL));
     CHECK(none == 99);
     azulejo_points_free(erased);
     azulejo_points_free(points);

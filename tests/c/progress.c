@@ -217,9 +217,9 @@ static int32_t advance_too(void *user, double done) {
     azulejo_psp *set = *(azulejo_psp **)user;
     azulejo_points *points = UNTOUCHED;
     (void)done;
-    REFUSED(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", azulejo_psp_advance(set, 1, NULL));
-    REFUSED(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", azulejo_psp_fill(set, NULL));
-    REFUSED(AZULEJO_ERROR_INVALID_ARGUMENT, "psp", azulejo_psp_points(set, &points));
+    REFUSED(AZULEJO_ERROR_BUSY, "psp: is in use", azulejo_psp_advance(set, 1, NULL));
+    REFUSED(AZULEJO_ERROR_BUSY, "psp: is in use", azulejo_psp_fill(set, NULL));
+    REFUSED(AZULEJO_ERROR_BUSY, "psp: is in use", azulejo_psp_points(set, &points));
     CHECK(points == UNTOUCHED);
     return 0;
 }

@@ -108,7 +108,7 @@ run_asan() {
 }
 
 run_valgrind() {
-    AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full \
+    AZULEJO_MEMORY_IS_WATCHED=1 AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full \
         --errors-for-leak-kinds=definite,indirect --show-leak-kinds=definite,indirect "$built/$(basename "$1")"
 }
 

@@ -125,6 +125,7 @@ void statuses() {
     CHECK(azulejo::Context::try_create(2, context).ok() && context.num_threads() == 2);
     const azulejo::Status failed = azulejo::Context::try_create(5000, context);
     CHECK(failed.code() == AZULEJO_ERROR_INVALID_ARGUMENT && failed.message().find("5000") != std::string::npos);
+    CHECK(failed.name() == std::string("AZULEJO_ERROR_INVALID_ARGUMENT"));
     CHECK(context.num_threads() == 2);
 
     azulejo::KdrtOptions options;

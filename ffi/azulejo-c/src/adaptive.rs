@@ -1,16 +1,16 @@
 //! Adaptive sampling: Poisson-disk samples on triangle meshes whose radius varies.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::Order;
 use azulejo_core::psp::DEFAULT_QUOTIENT;
 use azulejo_core::psp::adaptive::{self, Radius};
 
-use crate::boundary::{self, check_unused, required, rows};
+use crate::boundary::{Out, check_unused, rows};
 use crate::context::azulejo_context;
 use crate::given::given;
 use crate::growing::{self, Output, growing};
+use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
@@ -177,15 +177,19 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 /// AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_psp_adaptive_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         let callback = options.radius.map(|function| Callback { function, user: options.radius_user });

@@ -1,13 +1,12 @@
 //! The guarantees, for the user to check: spacing and coverage.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::analysis::{coverage, spacing};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{self, Out, rows};
 use crate::context::azulejo_context;
 use crate::domain::{PlaneSet, azulejo_plane_set};
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
 use crate::mesh::{SurfaceSet, azulejo_mesh};
 use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
@@ -24,10 +23,12 @@ use crate::status::{Failure, azulejo_status};
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_smallest_distance(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
-    out: Option<&mut MaybeUninit<f64>>,
+    out: *mut f64,
 ) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
         let set = unsafe { PlaneSet::read(context, set) }?;
@@ -48,10 +49,12 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
-    out: Option<&mut MaybeUninit<f64>>,
+    out: *mut f64,
 ) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
         let set = unsafe { PlaneSet::read(context, set) }?;
@@ -70,13 +73,16 @@ pub unsafe extern "C" fn azulejo_plane_covering_radius(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_smallest_distance(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     positions: *const f32,
     count: usize,
-    out: Option<&mut MaybeUninit<f64>>,
+    out: *mut f64,
 ) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
     boundary::answer(out, || {
-        let context = required("context", context)?;
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
         context.run(Watch::NONE, |context, progress| spacing::smallest_distance_3d(context, points, progress))
@@ -104,15 +110,17 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     positions: *const f32,
     count: usize,
     radius: f64,
     probes: u64,
     seed: u64,
-    out: Option<&mut MaybeUninit<f64>>,
+    out: *mut f64,
 ) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
     boundary::answer(out, || {
         // SAFETY: handed on from the caller.
         let set = unsafe { SurfaceSet::read(context, mesh, positions, count) }?;
@@ -177,7 +185,7 @@ pub unsafe extern "C" fn azulejo_coverage_report_init(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_coverage(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
     radius: f64,
     out: *mut azulejo_coverage_report,
@@ -212,8 +220,8 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 /// * radius^2 of the area is uncovered; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_coverage(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     positions: *const f32,
     count: usize,
     radius: f64,

@@ -2,7 +2,6 @@
 
 use std::any::Any;
 use std::fmt::Debug;
-use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::status::{AZULEJO_ERROR_INTERNAL, AZULEJO_OK, Failure, azulejo_status};
@@ -17,29 +16,50 @@ pub(crate) fn call(body: impl FnOnce() -> Result<(), Failure>) -> azulejo_status
     }
 }
 
+/// Where the caller wants a result. It is written once, when the call has succeeded.
+pub(crate) struct Out<T>(*mut T);
+
+impl<T> Out<T> {
+    /// The caller's pointer, which is checked before any work begins.
+    ///
+    /// # Safety
+    /// Unless it is NULL or misaligned, `pointer` leads to memory for a `T`, which nothing else uses during the call.
+    pub(crate) unsafe fn new(pointer: *mut T) -> Self {
+        Self(pointer)
+    }
+
+    /// The caller's pointer, or none for NULL; refused if it is misaligned.
+    ///
+    /// # Safety
+    /// As [`Out::new`].
+    pub(crate) unsafe fn optional(argument: &str, pointer: *mut T) -> Result<Option<Self>, Failure> {
+        if pointer.is_null() {
+            return Ok(None);
+        }
+        let out = Self(pointer);
+        out.check(argument).map(|()| Some(out))
+    }
+
+    /// Refuses a pointer to which nothing can be written.
+    pub(crate) fn check(&self, argument: &str) -> Result<(), Failure> {
+        check_pointer(argument, self.0)
+    }
+
+    /// Writes to a pointer that passed the check.
+    pub(crate) fn write(self, value: T) {
+        debug_assert!(!self.0.is_null() && self.0.is_aligned());
+        // SAFETY: memory for a `T` by the promise of `new`, and checked as far as that is possible.
+        unsafe { self.0.write(value) };
+    }
+}
+
 /// [`call`] for a `body` that has one result.
-pub(crate) fn answer<T>(out: Option<&mut MaybeUninit<T>>, body: impl FnOnce() -> Result<T, Failure>) -> azulejo_status {
+pub(crate) fn answer<T>(out: Out<T>, body: impl FnOnce() -> Result<T, Failure>) -> azulejo_status {
     call(|| {
-        let out = required("out", out)?;
+        out.check("out")?;
         out.write(body()?);
         Ok(())
     })
-}
-
-/// [`answer`] for a `body` that makes a handle.
-pub(crate) fn create<T>(
-    out: Option<&mut MaybeUninit<Box<T>>>,
-    body: impl FnOnce() -> Result<T, Failure>,
-) -> azulejo_status {
-    answer(out, || body().map(Box::new))
-}
-
-/// Gives a handle back.
-pub(crate) fn free<T>(handle: Option<Box<T>>) {
-    call(|| {
-        drop(handle);
-        Ok(())
-    });
 }
 
 fn describe(payload: &(dyn Any + Send)) -> String {
@@ -87,24 +107,6 @@ pub(crate) unsafe fn rows<'a, T, const N: usize>(
     check_size(count_argument, count, count.checked_mul(size_of::<[T; N]>()))?;
     // SAFETY: not NULL, aligned, of a possible size; the rest is the caller's word.
     Ok(unsafe { std::slice::from_raw_parts(rows.cast(), count) })
-}
-
-/// The handles in the caller's array of `count` pointers, none of which may be NULL.
-///
-/// # Safety
-/// Unless the checks fail, `pointers` leads to `count` pointers to handles that live during `'a`.
-pub(crate) unsafe fn handles<'a, T>(
-    argument: &str,
-    pointers: *const *const T,
-    count: usize,
-) -> Result<Vec<&'a T>, Failure> {
-    // SAFETY: handed on from the caller.
-    let pointers = unsafe { rows::<*const T, 1>(argument, pointers, "count", count) }?;
-    let handle = |(i, &[pointer]): (usize, &[*const T; 1])| {
-        // SAFETY: NULL, or a handle of the caller's.
-        unsafe { pointer.as_ref() }.ok_or_else(|| Failure::invalid(argument, format!("[{i}] is NULL")))
-    };
-    pointers.iter().enumerate().map(handle).collect()
 }
 
 /// Writes a result into the caller's array, which was checked before work began.
@@ -167,11 +169,17 @@ mod tests {
 
     #[test]
     fn an_output_is_written_on_success_only() {
-        let mut out = MaybeUninit::new(Box::new(1));
-        assert_eq!(create(Some(&mut out), || Err(Failure::invalid("x", "y"))), AZULEJO_ERROR_INVALID_ARGUMENT);
-        // SAFETY: the output was written before.
-        assert_eq!(unsafe { out.assume_init_read() }, Box::new(1));
-        assert_eq!(create::<i32>(None, || panic!("no work before the checks")), AZULEJO_ERROR_INVALID_ARGUMENT);
+        let mut memory = [1u64; 2];
+        let start = memory.as_mut_ptr();
+        // SAFETY: NULL, misaligned, or memory for a number.
+        let out = |pointer: *mut u64| unsafe { Out::new(pointer) };
+        assert_eq!(answer(out(start), || Err(Failure::invalid("x", "y"))), AZULEJO_ERROR_INVALID_ARGUMENT);
+        for bad in [std::ptr::null_mut(), start.wrapping_byte_add(1), start.wrapping_byte_add(4)] {
+            assert_eq!(answer(out(bad), || panic!("no work before the checks")), AZULEJO_ERROR_INVALID_ARGUMENT);
+        }
+        assert_eq!(memory, [1; 2]);
+        assert_eq!(answer(out(memory.as_mut_ptr()), || Ok(7)), AZULEJO_OK);
+        assert_eq!(memory, [7, 1]);
     }
 
     #[test]

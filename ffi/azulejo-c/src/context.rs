@@ -1,12 +1,12 @@
 //! The threads that calls run on.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 use std::sync::Arc;
 
 use azulejo_core::{Context, Progress};
 
-use crate::boundary::{self, required};
+use crate::boundary::Out;
+use crate::handles::{self, handle};
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
@@ -18,6 +18,8 @@ pub struct azulejo_context {
     /// The callback of calls whose options have none.
     watch: Watch,
 }
+
+handle!(azulejo_context);
 
 impl azulejo_context {
     /// Runs a call. Its progress goes to `own`, the callback of its options, or else to that of the
@@ -47,11 +49,10 @@ impl azulejo_context {
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_context_create(
-    num_threads: u32,
-    out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
-) -> azulejo_status {
-    boundary::create(out, || {
+pub unsafe extern "C" fn azulejo_context_create(num_threads: u32, out: *mut *mut azulejo_context) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         Ok(azulejo_context { shared: Arc::new(Context::new(num_threads as usize)?), watch: Watch::NONE })
     })
 }
@@ -74,25 +75,30 @@ pub extern "C" fn azulejo_context_create(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_context_watch(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     progress: azulejo_progress_fn,
     progress_user: *mut c_void,
-    out: Option<&mut MaybeUninit<Box<azulejo_context>>>,
+    out: *mut *mut azulejo_context,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let shared = required("context", context)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let shared = unsafe { handles::get("context", context) }?.shared.clone();
         Ok(azulejo_context { shared, watch: Watch::new(progress, progress_user) })
     })
 }
 
 /// The number of threads that work on a call; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_context_num_threads(context: Option<&azulejo_context>) -> u32 {
-    context.map_or(0, |context| context.shared.num_threads() as u32)
+pub unsafe extern "C" fn azulejo_context_num_threads(context: *const azulejo_context) -> u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("context", context) }.map_or(0, |context| context.shared.num_threads() as u32)
 }
 
 /// Frees a context. Its threads end when no call and no handle uses them any more. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_context_free(context: Option<Box<azulejo_context>>) {
-    boundary::free(context);
+pub unsafe extern "C" fn azulejo_context_free(context: *mut azulejo_context) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("context", context) };
 }

@@ -1,15 +1,15 @@
 //! DCR: relaxation of a point set by distance constraints.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::dcr::{self, Convergence, Distribution, Method, Neighbourhood, Report, Stopped, Thesis, Visits};
 
-use crate::boundary::{self, check_reserved, check_unused, required, rows};
+use crate::boundary::{Out, check_reserved, check_unused, rows};
 use crate::classes::AZULEJO_MAX_CLASSES;
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
@@ -329,15 +329,18 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_dcr_options,
     xy: *const f32,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, report): (azulejo_dcr_options, _) =
             unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
@@ -386,19 +389,22 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax_classes(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_dcr_options,
     xy: *const f32,
     classes: *const u32,
     count: usize,
     class_count: u32,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_report,
     class_rho: *mut f64,
     class_coverage: *mut f64,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, report): (azulejo_dcr_options, _) =
             unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };

@@ -1,14 +1,14 @@
 //! DCR with a density: sets that are denser here than there.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::dcr::{self, Density};
 
-use crate::boundary::{self, check_reserved, check_unused, required, rows};
+use crate::boundary::{Out, check_reserved, check_unused, rows};
 use crate::context::azulejo_context;
 use crate::dcr::{azulejo_dcr_options, azulejo_dcr_report};
 use crate::growing::{self, Output, growing};
+use crate::handles;
 use crate::points::azulejo_points;
 use crate::status::{Failure, azulejo_status};
 
@@ -133,14 +133,17 @@ pub unsafe extern "C" fn azulejo_density_init(density: *mut azulejo_density, str
 /// everywhere; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_scatter(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_dcr_options,
     density: *const azulejo_density,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, density): (azulejo_dcr_options, azulejo_density) =
             unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
@@ -190,16 +193,19 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// everywhere; AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax_density(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_dcr_options,
     density: *const azulejo_density,
     xy: *const f32,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, density): (azulejo_dcr_options, azulejo_density) =
             unsafe { (growing::read("options", options)?, growing::read("density", density)?) };

@@ -1,11 +1,10 @@
 //! Differential domain analysis of samples on meshes.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::analysis::differential::{self, Differences, surface_differences};
 
-use crate::boundary::{self, array, check_pointer, required, rows};
+use crate::boundary::{self, Out, array, check_pointer, rows};
 use crate::context::azulejo_context;
+use crate::handles::{self, handle};
 use crate::mesh::{SurfaceSet, azulejo_mesh};
 use crate::status::{Failure, azulejo_status};
 
@@ -40,6 +39,8 @@ pub struct azulejo_differences {
     radial: Vec<f64>,
 }
 
+handle!(azulejo_differences);
+
 impl From<Differences> for azulejo_differences {
     fn from(differences: Differences) -> Self {
         let radial = differences.radial().iter().map(|shell| shell.density).collect();
@@ -70,16 +71,18 @@ impl From<Differences> for azulejo_differences {
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_create(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     positions: *const f32,
     normals: *const f32,
     count: usize,
     direction: *const f64,
     seed: u64,
-    out: Option<&mut MaybeUninit<Box<azulejo_differences>>>,
+    out: *mut *mut azulejo_differences,
 ) -> azulejo_status {
-    boundary::create(out, || {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         // SAFETY: handed on from the caller.
         let (set, normals, direction) = unsafe {
             (
@@ -110,11 +113,13 @@ pub unsafe extern "C" fn azulejo_differences_create(
 pub unsafe extern "C" fn azulejo_differences_mean(
     differences: *const *const azulejo_differences,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_differences>>>,
+    out: *mut *mut azulejo_differences,
 ) -> azulejo_status {
-    boundary::create(out, || {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         // SAFETY: handed on from the caller.
-        let differences = unsafe { boundary::handles("differences", differences, count) }?;
+        let differences = unsafe { handles::all("differences", differences, count) }?;
         let all: Vec<_> = differences.iter().map(|one| one.differences.clone()).collect();
         Ok(Differences::together(&all)?.into())
     })
@@ -124,15 +129,19 @@ pub unsafe extern "C" fn azulejo_differences_mean(
 /// even random points have a pair. The offset 0 is in the middle, where four cells meet. Valid
 /// until azulejo_differences_free. NULL for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_differences_density(differences: Option<&azulejo_differences>) -> *const f64 {
-    differences.map_or(std::ptr::null(), |differences| array(&differences.density))
+pub unsafe extern "C" fn azulejo_differences_density(differences: *const azulejo_differences) -> *const f64 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("differences", differences) }
+        .map_or(std::ptr::null(), |differences| array(&differences.density))
 }
 
 /// The radial mean of p(d), the radial distribution function: AZULEJO_DIFFERENCES_SHELLS numbers.
 /// Valid until azulejo_differences_free. NULL for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_differences_radial(differences: Option<&azulejo_differences>) -> *const f64 {
-    differences.map_or(std::ptr::null(), |differences| array(&differences.radial))
+pub unsafe extern "C" fn azulejo_differences_radial(differences: *const azulejo_differences) -> *const f64 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("differences", differences) }
+        .map_or(std::ptr::null(), |differences| array(&differences.radial))
 }
 
 /// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for
@@ -148,13 +157,14 @@ pub extern "C" fn azulejo_differences_radial(differences: Option<&azulejo_differ
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_power(
-    differences: Option<&azulejo_differences>,
+    differences: *const azulejo_differences,
     frequencies: *const f64,
     count: usize,
     out: *mut f64,
 ) -> azulejo_status {
     boundary::call(|| {
-        let differences = required("differences", differences)?;
+        // SAFETY: handed on from the caller.
+        let differences = unsafe { handles::get("differences", differences) }?;
         // SAFETY: handed on from the caller.
         let frequencies = unsafe { rows::<f64, 1>("frequencies", frequencies, "count", count) }?.as_flattened();
         let range = -MAX_FREQUENCY..=MAX_FREQUENCY;
@@ -176,6 +186,7 @@ const MAX_FREQUENCY: f64 = 32.0;
 
 /// Frees the differences. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_differences_free(differences: Option<Box<azulejo_differences>>) {
-    boundary::free(differences);
+pub unsafe extern "C" fn azulejo_differences_free(differences: *mut azulejo_differences) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("differences", differences) };
 }

@@ -2,9 +2,10 @@
 
 use azulejo_core::{Boundary, Context, Domain, Error, Progress};
 
-use crate::boundary::{required, rows};
+use crate::boundary::rows;
 use crate::context::azulejo_context;
 use crate::growing::{self, growing};
+use crate::handles;
 use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
 
@@ -71,12 +72,10 @@ impl<'a> PlaneSet<'a> {
     ///
     /// # Safety
     /// Unless the checks fail, `set` leads to as many bytes as its `struct_size` says, and
-    /// its `positions` to `count` pairs that are not changed during `'a`.
-    pub(crate) unsafe fn read(
-        context: Option<&'a azulejo_context>,
-        set: *const azulejo_plane_set,
-    ) -> Result<Self, Failure> {
-        let context = required("context", context)?;
+    /// its `positions` to `count` pairs that are not changed during `'a`; `context` is as in [`handles::get`].
+    pub(crate) unsafe fn read(context: *const azulejo_context, set: *const azulejo_plane_set) -> Result<Self, Failure> {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let set = unsafe { growing::read("set", set) }?;
         // SAFETY: likewise.

@@ -1,14 +1,14 @@
 //! Meshes out of scenes that the caller has made with Embree.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 use std::ptr::NonNull;
 use std::sync::Arc;
 
 use azulejo_core::mesh::Mesh;
 use azulejo_core::trace::host_buffers;
 
-use crate::boundary::{self, check_pointer, check_size, rows};
+use crate::boundary::{Out, check_pointer, check_size, rows};
+use crate::handles;
 use crate::mesh::{azulejo_mesh, collect};
 use crate::status::{Failure, azulejo_status};
 
@@ -61,9 +61,11 @@ pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     scene: *mut c_void,
     geometries: *const azulejo_embree_geometry,
     geometry_count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+    out: *mut *mut azulejo_mesh,
 ) -> azulejo_status {
-    boundary::create(out, || {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         check_pointer("scene", scene)?;
         // SAFETY: handed on from the caller.
         let geometries = unsafe { rows::<_, 1>("geometries", geometries, "geometry_count", geometry_count) }?;

@@ -1,7 +1,6 @@
 //! KDRT: massive maximal Poisson-disk sets in the plane, by radius or by number.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -9,11 +8,12 @@ use azulejo_core::analysis::coverage::covering_radius_2d;
 use azulejo_core::kdrt::{self, CountOptions, Kind, Plane, Progressive};
 use azulejo_core::{Classes, Domain, Given, Order, Points};
 
-use crate::boundary::{self, check_unused, flag, pair, required};
+use crate::boundary::{self, Out, check_unused, flag, pair, required};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::given::given_by_class;
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
@@ -203,13 +203,16 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
 /// estimate, for 2^32 samples or more, or more than memory holds; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_kdrt_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         let measured = options.measures_coverage()?;
@@ -273,14 +276,17 @@ const PATTERN_SHARE: f64 = 0.05;
 /// AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample_window(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_options,
     window_min: *const f64,
     window_max: *const f64,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, min, max) = unsafe {
             (growing::read("options", options)?, pair("window_min", window_min)?, pair("window_max", window_max)?)
@@ -321,13 +327,14 @@ pub type azulejo_kdrt_visit_fn =
 /// AZULEJO_ERROR_CANCELLED, also if `visit` cancels. A progressive order is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_stream(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_options,
     visit: azulejo_kdrt_visit_fn,
     user: *mut c_void,
 ) -> azulejo_status {
     boundary::call(|| {
-        let context = required("context", context)?;
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         let request = options.by_radius_only()?;

@@ -1,13 +1,12 @@
 //! Several classes in the plane.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::kdrt::{Plane, sample};
 
-use crate::boundary::{self, required};
+use crate::boundary::Out;
 use crate::classes::azulejo_classes;
 use crate::context::azulejo_context;
 use crate::growing;
+use crate::handles;
 use crate::kdrt::azulejo_kdrt_options;
 use crate::kept::azulejo_kdrt;
 use crate::points::azulejo_points;
@@ -45,13 +44,16 @@ use crate::status::azulejo_status;
 /// memory holds; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_options,
     classes: *const azulejo_classes,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         // SAFETY: the same.
@@ -83,13 +85,16 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
 /// The domain may have more samples than can be held.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create_classes(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_options,
     classes: *const azulejo_classes,
-    out: Option<&mut MaybeUninit<Box<azulejo_kdrt>>>,
+    out: *mut *mut azulejo_kdrt,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         // SAFETY: the same.

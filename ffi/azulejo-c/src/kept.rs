@@ -1,12 +1,11 @@
 //! A plane that is kept: its pattern is made once, any of its windows at any time.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::kdrt::Plane;
 
-use crate::boundary::{self, pair, required};
+use crate::boundary::{Out, pair};
 use crate::context::azulejo_context;
 use crate::growing;
+use crate::handles::{self, handle};
 use crate::kdrt::azulejo_kdrt_options;
 use crate::points::azulejo_points;
 use crate::status::azulejo_status;
@@ -16,6 +15,8 @@ use crate::status::azulejo_status;
 pub struct azulejo_kdrt {
     pub(crate) plane: Plane,
 }
+
+handle!(azulejo_kdrt);
 
 /// Makes what all windows of a plane need: its pattern and tables.
 ///
@@ -36,12 +37,15 @@ pub struct azulejo_kdrt {
 /// AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_kdrt>>>,
+    out: *mut *mut azulejo_kdrt,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         let request = options.by_radius_only()?;
@@ -70,13 +74,16 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 /// window, or more than memory holds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window(
-    plane: Option<&azulejo_kdrt>,
+    plane: *const azulejo_kdrt,
     window_min: *const f64,
     window_max: *const f64,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let plane = &required("plane", plane)?.plane;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let plane = &unsafe { handles::get("plane", plane) }?.plane;
         // SAFETY: handed on from the caller.
         let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
         Ok(azulejo_points::plane(plane.window(min, max)?))
@@ -85,6 +92,7 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 
 /// Frees a plane. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_kdrt_free(plane: Option<Box<azulejo_kdrt>>) {
-    boundary::free(plane);
+pub unsafe extern "C" fn azulejo_kdrt_free(plane: *mut azulejo_kdrt) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("plane", plane) };
 }

@@ -43,19 +43,24 @@
 //!   function lists its codes except two, which are possible in most: AZULEJO_ERROR_THREADS in
 //!   calls with a context (see "Threads"), and AZULEJO_ERROR_INTERNAL for a panic inside the
 //!   library, which is a bug. AZULEJO_ERROR_INVALID_ARGUMENT is returned for a pointer that is NULL
-//!   or not aligned and for a value outside its documented range. No exception leaves the library.
+//!   or not aligned and for a value outside its documented range. azulejo_status_name gives the name
+//!   of a code. No exception leaves the library.
 //!   Nothing is printed to stdout; a panic prints to stderr.
 //!
 //! Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
 //!   azulejo_selection, azulejo_spectrum and azulejo_differences are made by the library. The
 //!   caller owns them and frees each with its own _free function, which allows NULL. They may be
 //!   freed in any order: a handle keeps what it needs of another one. Accessors return 0 or NULL
-//!   for NULL. Pointers into a handle are valid until the handle is freed.
+//!   for NULL. Pointers into a handle are valid until the handle is freed. A handle begins with a
+//!   tag, which is overwritten when it is freed. A handle of another type is always refused. A
+//!   freed one is refused as long as its memory has not been used again; that is no promise, as
+//!   the allocator may have given the memory away or back to the system. Accessors return 0 or
+//!   NULL for what is refused, _free functions leave it as it is, and both set the last error.
 //!
 //! Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
 //!   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
-//!   that are not aligned for their type are refused. The library cannot detect other invalid
-//!   pointers or counts that exceed an array.
+//!   that are not aligned for their type, handles and outputs included, are refused. Other invalid
+//!   pointers, and counts that exceed an array, cannot be detected.
 //!
 //! Structs that can grow. Options, reports, azulejo_plane_set, azulejo_density and
 //!   azulejo_mesh_density begin with struct_size and must be filled by their _init function before
@@ -87,12 +92,12 @@
 //! Threads. Every function may be called from any thread at any time. Several threads may use one
 //!   context at once, make windows of one plane, and read one mesh, set of points, selection,
 //!   spectrum or differences. A psp handle serves one changing call at a time and refuses a second
-//!   one. A handle must not be freed while another thread uses it. The last error belongs to the
-//!   thread that made the call. After fork, in the child, contexts with more than one thread and
-//!   psp handles made with them return AZULEJO_ERROR_THREADS, since their threads exist in the
-//!   parent only; they can still be freed. Planes, contexts of one thread, and contexts made after
-//!   the fork work. Embree's own threads are lost as well: a process that used Embree before it
-//!   forked should use AZULEJO_ENGINE_RASTERISER in the child.
+//!   one with AZULEJO_ERROR_BUSY. A handle must not be freed while another thread uses it. The last
+//!   error belongs to the thread that made the call. After fork, in the child, contexts with more
+//!   than one thread and psp handles made with them return AZULEJO_ERROR_THREADS, since their
+//!   threads exist in the parent only; they can still be freed. Planes, contexts of one thread, and
+//!   contexts made after the fork work. Embree's own threads are lost as well: a process that used
+//!   Embree before it forked should use AZULEJO_ENGINE_RASTERISER in the child.
 //!
 //! Determinism. The same options and seed give the same bytes, for every number of threads and
 //!   whatever was called before, on every processor and system: elementary functions are the
@@ -119,6 +124,7 @@
 mod boundary;
 mod given;
 mod growing;
+mod handles;
 #[cfg(all(test, not(miri)))]
 mod option_table;
 

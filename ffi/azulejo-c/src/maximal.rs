@@ -1,14 +1,14 @@
 //! The unbiased reference: maximal Poisson-disk sampling by dart throwing.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::maximal;
 
-use crate::boundary::{self, required};
+use crate::boundary::Out;
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::growing::{self, growing};
+use crate::handles;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::azulejo_status;
@@ -74,12 +74,15 @@ pub unsafe extern "C" fn azulejo_maximal_options_init(
 /// Errors: as azulejo_kdrt_sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_maximal_sample(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_maximal_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;

@@ -2,14 +2,14 @@
 //! maximal set.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::kdrt::{self, MergeOptions, MergeReport, Piece};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{Out, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
@@ -144,17 +144,20 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
 /// floats; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_kdrt_merge_options,
     pieces: *const azulejo_kdrt_merge_piece,
     piece_count: usize,
     fixed: *const f32,
     fixed_count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_kdrt_merge_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, pieces, fixed, report) = unsafe {
             let fixed = rows::<f32, 2>("fixed", fixed, "fixed_count", fixed_count)?;

@@ -1,15 +1,15 @@
 //! Triangle meshes: the surfaces to sample.
 
 use std::ffi::{CStr, c_char};
-use std::mem::MaybeUninit;
 use std::path::Path;
 use std::sync::Arc;
 
 use azulejo_core::mesh::Mesh;
 use azulejo_core::{Context, Progress};
 
-use crate::boundary::{self, array, check_pointer, check_size, required, rows};
+use crate::boundary::{Out, array, check_pointer, check_size, rows};
 use crate::context::azulejo_context;
+use crate::handles::{self, handle};
 use crate::points::azulejo_points;
 use crate::progress::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
@@ -20,6 +20,8 @@ use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 pub struct azulejo_mesh {
     pub(crate) shared: Arc<Mesh>,
 }
+
+handle!(azulejo_mesh);
 
 const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 
@@ -56,9 +58,11 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     stride_bytes: usize,
     indices: *const u32,
     triangle_count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+    out: *mut *mut azulejo_mesh,
 ) -> azulejo_status {
-    boundary::create(out, || {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         // SAFETY: handed on from the caller.
         let (vertices, triangles) = unsafe {
             (
@@ -92,11 +96,10 @@ pub unsafe extern "C" fn azulejo_mesh_create(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_IO if the file cannot be read;
 /// AZULEJO_ERROR_FORMAT if it is invalid, or has a mesh that azulejo_mesh_create would refuse.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_mesh_load(
-    path: *const c_char,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
-) -> azulejo_status {
-    boundary::create(out, || {
+pub unsafe extern "C" fn azulejo_mesh_load(path: *const c_char, out: *mut *mut azulejo_mesh) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         check_pointer("path", path)?;
         // SAFETY: not NULL; the caller ends the string with a NUL.
         let path = unsafe { CStr::from_ptr(path) };
@@ -146,16 +149,19 @@ fn system_path(utf8: &CStr) -> Result<&Path, Failure> {
 /// more, and for sizes that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_with_normals(
-    mesh: Option<&azulejo_mesh>,
+    mesh: *const azulejo_mesh,
     normals: *const f32,
     normal_count: usize,
     stride_bytes: usize,
     normal_indices: *const u32,
     triangle_count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+    out: *mut *mut azulejo_mesh,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let mesh = &required("mesh", mesh)?.shared;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let mesh = &unsafe { handles::get("mesh", mesh) }?.shared;
         // SAFETY: handed on from the caller.
         let vectors = unsafe { strided("normals", normals, "normal_count", normal_count, stride_bytes)? };
         let indices = if normal_indices.is_null() && triangle_count == 0 {
@@ -192,13 +198,16 @@ pub unsafe extern "C" fn azulejo_mesh_with_normals(
 /// AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_with_mask(
-    mesh: Option<&azulejo_mesh>,
+    mesh: *const azulejo_mesh,
     mask: *const u8,
     triangle_count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+    out: *mut *mut azulejo_mesh,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let mesh = &required("mesh", mesh)?.shared;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let mesh = &unsafe { handles::get("mesh", mesh) }?.shared;
         check_triangle_count(mesh, triangle_count)?;
         // SAFETY: handed on from the caller.
         let mask = unsafe { rows::<u8, 1>("mask", mask, "triangle_count", triangle_count)? };
@@ -229,14 +238,17 @@ pub unsafe extern "C" fn azulejo_mesh_with_mask(
 /// for another count; AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_deform(
-    mesh: Option<&azulejo_mesh>,
+    mesh: *const azulejo_mesh,
     positions: *const f32,
     vertex_count: usize,
     stride_bytes: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+    out: *mut *mut azulejo_mesh,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let mesh = &required("mesh", mesh)?.shared;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let mesh = &unsafe { handles::get("mesh", mesh) }?.shared;
         // SAFETY: handed on from the caller.
         let vertices = unsafe { strided("positions", positions, "vertex_count", vertex_count, stride_bytes)? };
         Ok(azulejo_mesh { shared: Arc::new(mesh.deformed(vertices)?) })
@@ -260,14 +272,17 @@ pub unsafe extern "C" fn azulejo_mesh_deform(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for sizes that overflow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_points(
-    mesh: Option<&azulejo_mesh>,
+    mesh: *const azulejo_mesh,
     triangles: *const u32,
     barycentrics: *const f32,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let mesh = &required("mesh", mesh)?.shared;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let mesh = &unsafe { handles::get("mesh", mesh) }?.shared;
         // SAFETY: handed on from the caller.
         let (triangles, barycentrics) = unsafe {
             (
@@ -281,47 +296,54 @@ pub unsafe extern "C" fn azulejo_mesh_points(
 
 /// 1 if the mesh carries normals besides those of its triangles, else 0; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_has_normals(mesh: Option<&azulejo_mesh>) -> i32 {
-    mesh.is_some_and(|mesh| mesh.shared.has_normals()).into()
+pub unsafe extern "C" fn azulejo_mesh_has_normals(mesh: *const azulejo_mesh) -> i32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("mesh", mesh) }.is_some_and(|mesh| mesh.shared.has_normals()).into()
 }
 
 /// The number of vertices; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_vertex_count(mesh: Option<&azulejo_mesh>) -> usize {
-    mesh.map_or(0, |mesh| mesh.shared.positions().len())
+pub unsafe extern "C" fn azulejo_mesh_vertex_count(mesh: *const azulejo_mesh) -> usize {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("mesh", mesh) }.map_or(0, |mesh| mesh.shared.positions().len())
 }
 
 /// The number of triangles, including masked ones; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_triangle_count(mesh: Option<&azulejo_mesh>) -> usize {
-    mesh.map_or(0, |mesh| mesh.shared.triangles().len())
+pub unsafe extern "C" fn azulejo_mesh_triangle_count(mesh: *const azulejo_mesh) -> usize {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("mesh", mesh) }.map_or(0, |mesh| mesh.shared.triangles().len())
 }
 
 /// The vertices, x y z each, packed; valid until azulejo_mesh_free. NULL for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_positions(mesh: Option<&azulejo_mesh>) -> *const f32 {
-    mesh.map_or(std::ptr::null(), |mesh| array(mesh.shared.positions()))
+pub unsafe extern "C" fn azulejo_mesh_positions(mesh: *const azulejo_mesh) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("mesh", mesh) }.map_or(std::ptr::null(), |mesh| array(mesh.shared.positions()))
 }
 
 /// The three vertices of each triangle, counter-clockwise seen from the front; valid until
 /// azulejo_mesh_free. NULL for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_indices(mesh: Option<&azulejo_mesh>) -> *const u32 {
-    mesh.map_or(std::ptr::null(), |mesh| array(mesh.shared.triangles()))
+pub unsafe extern "C" fn azulejo_mesh_indices(mesh: *const azulejo_mesh) -> *const u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("mesh", mesh) }.map_or(std::ptr::null(), |mesh| array(mesh.shared.triangles()))
 }
 
 /// The area of all triangles that no mask leaves out, in squared units of the positions; 0 for
 /// NULL. A maximal set of n samples has a radius of about sqrt(0.69656 * area / n), if that is
 /// small compared with the features of the surface.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_area(mesh: Option<&azulejo_mesh>) -> f64 {
-    mesh.map_or(0.0, |mesh| mesh.shared.area())
+pub unsafe extern "C" fn azulejo_mesh_area(mesh: *const azulejo_mesh) -> f64 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("mesh", mesh) }.map_or(0.0, |mesh| mesh.shared.area())
 }
 
 /// Frees the mesh once no psp handle uses it any more. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<azulejo_mesh>>) {
-    boundary::free(mesh);
+pub unsafe extern "C" fn azulejo_mesh_free(mesh: *mut azulejo_mesh) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("mesh", mesh) };
 }
 
 /// Refuses an array that is not as long as a mesh has triangles.
@@ -379,15 +401,19 @@ impl<'a> SurfaceSet<'a> {
     /// The set of the caller's arguments, `count` samples at `positions`.
     ///
     /// # Safety
-    /// Unless the checks fail, `positions` leads to `count` triples of numbers.
+    /// Unless the checks fail, `positions` leads to `count` triples of numbers; the handles are those of the caller, as
+    /// in [`handles::get`].
     pub(crate) unsafe fn read(
-        context: Option<&'a azulejo_context>,
-        mesh: Option<&azulejo_mesh>,
+        context: *const azulejo_context,
+        mesh: *const azulejo_mesh,
         positions: *const f32,
         count: usize,
     ) -> Result<Self, Failure> {
-        let (context, mesh) = (required("context", context)?, required("mesh", mesh)?.shared.clone());
         // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: likewise.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
+        // SAFETY: likewise.
         let positions = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
         Ok(Self { context, mesh, positions })
     }

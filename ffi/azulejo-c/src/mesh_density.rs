@@ -1,14 +1,14 @@
 //! Densities on meshes: samples that are denser here than there.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
 
 use crate::adaptive::azulejo_psp_adaptive_options;
-use crate::boundary::{self, check_pointer, check_reserved, check_unused, flag, required, rows};
+use crate::boundary::{Out, check_pointer, check_reserved, check_unused, flag, rows};
 use crate::context::azulejo_context;
 use crate::growing::{self, Output, growing};
+use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
 use crate::psp_report::azulejo_psp_report;
@@ -246,16 +246,20 @@ pub unsafe extern "C" fn azulejo_mesh_density_init(
 /// azulejo_psp_adaptive_sample; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_psp_adaptive_options,
     density: *const azulejo_mesh_density,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, density): (azulejo_psp_adaptive_options, azulejo_mesh_density) =
             unsafe { (growing::read("options", options)?, growing::read("density", density)?) };

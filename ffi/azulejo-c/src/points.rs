@@ -2,7 +2,8 @@
 
 use azulejo_core::Points;
 
-use crate::boundary::{self, array};
+use crate::boundary::array;
+use crate::handles::{self, handle};
 
 /// The samples that a call made. Immutable: several threads may read it at once. All its arrays
 /// have one entry per sample, in the same order, and are valid until azulejo_points_free.
@@ -17,6 +18,8 @@ pub struct azulejo_points {
     /// The id of each sample of a set that is edited.
     pub(crate) ids: Vec<u64>,
 }
+
+handle!(azulejo_points);
 
 pub(crate) enum Samples {
     Plane(Vec<[f32; 2]>),
@@ -41,8 +44,13 @@ impl azulejo_points {
     }
 }
 
-fn surface(points: Option<&azulejo_points>) -> Option<&Points<3>> {
-    match points.map(|points| &points.samples) {
+/// The samples of a handle, if they are those of a mesh.
+///
+/// # Safety
+/// As [`handles::get`].
+unsafe fn surface<'a>(points: *const azulejo_points) -> Option<&'a Points<3>> {
+    // SAFETY: handed on from the caller.
+    match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Surface(samples)) => Some(samples),
         _ => None,
     }
@@ -50,8 +58,9 @@ fn surface(points: Option<&azulejo_points>) -> Option<&Points<3>> {
 
 /// The number of samples; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_count(points: Option<&azulejo_points>) -> usize {
-    match points.map(|points| &points.samples) {
+pub unsafe extern "C" fn azulejo_points_count(points: *const azulejo_points) -> usize {
+    // SAFETY: handed on from the caller.
+    match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Plane(samples)) => samples.len(),
         Some(Samples::Surface(samples)) => samples.len(),
         None => 0,
@@ -61,8 +70,9 @@ pub extern "C" fn azulejo_points_count(points: Option<&azulejo_points>) -> usize
 /// The number of coordinates of a position: 2 for samples of the plane, 3 for samples on a mesh; 0
 /// for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_dimension(points: Option<&azulejo_points>) -> u32 {
-    match points.map(|points| &points.samples) {
+pub unsafe extern "C" fn azulejo_points_dimension(points: *const azulejo_points) -> u32 {
+    // SAFETY: handed on from the caller.
+    match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Plane(_)) => 2,
         Some(Samples::Surface(_)) => 3,
         None => 0,
@@ -75,8 +85,9 @@ pub extern "C" fn azulejo_points_dimension(points: Option<&azulejo_points>) -> u
 /// triangle, up to the rounding of the floats: they are computed from the barycentrics in double
 /// arithmetic and rounded once.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_positions(points: Option<&azulejo_points>) -> *const f32 {
-    match points.map(|points| &points.samples) {
+pub unsafe extern "C" fn azulejo_points_positions(points: *const azulejo_points) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Plane(samples)) => array(samples),
         Some(Samples::Surface(samples)) => array(&samples.positions),
         None => std::ptr::null(),
@@ -87,37 +98,42 @@ pub extern "C" fn azulejo_points_positions(points: Option<&azulejo_points>) -> *
 /// appear counter-clockwise, whether or not the mesh carries normals of its own. NULL for NULL, an
 /// empty set and samples of the plane.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_normals(points: Option<&azulejo_points>) -> *const f32 {
-    surface(points).map_or(std::ptr::null(), |samples| array(&samples.normals))
+pub unsafe extern "C" fn azulejo_points_normals(points: *const azulejo_points) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.normals))
 }
 
 /// The normals that the mesh carries, from azulejo_mesh_with_normals or from its file, interpolated
 /// with the samples' barycentrics and normalised, x y z each; the normal of the triangle where the
 /// sum is zero. NULL for a mesh without normals, NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_interpolated_normals(points: Option<&azulejo_points>) -> *const f32 {
-    surface(points).map_or(std::ptr::null(), |samples| array(&samples.interpolated_normals))
+pub unsafe extern "C" fn azulejo_points_interpolated_normals(points: *const azulejo_points) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.interpolated_normals))
 }
 
 /// The index of each sample's triangle; NULL for NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_triangles(points: Option<&azulejo_points>) -> *const u32 {
-    surface(points).map_or(std::ptr::null(), |samples| array(&samples.triangles))
+pub unsafe extern "C" fn azulejo_points_triangles(points: *const azulejo_points) -> *const u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.triangles))
 }
 
 /// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the
 /// position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices are interpolated in the
 /// same manner. NULL for NULL, an empty set and samples of the plane.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_barycentrics(points: Option<&azulejo_points>) -> *const f32 {
-    surface(points).map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
+pub unsafe extern "C" fn azulejo_points_barycentrics(points: *const azulejo_points) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
 }
 
 /// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
 /// in the units of the mesh; NULL for NULL, an empty set and all other sets.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *const f64 {
-    points.map_or(std::ptr::null(), |points| array(&points.radii))
+pub unsafe extern "C" fn azulejo_points_radii(points: *const azulejo_points) -> *const f64 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.radii))
 }
 
 /// The ranks of the samples of a set in progressive order, in the units of the domain or the mesh:
@@ -134,27 +150,31 @@ pub extern "C" fn azulejo_points_radii(points: Option<&azulejo_points>) -> *cons
 /// Where radii vary, distances are divided by the mean of two radii: see
 /// azulejo_psp_adaptive_sample, and for a density azulejo_psp_adaptive_with_density.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_ranks(points: Option<&azulejo_points>) -> *const f32 {
-    points.map_or(std::ptr::null(), |points| array(&points.ranks))
+pub unsafe extern "C" fn azulejo_points_ranks(points: *const azulejo_points) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.ranks))
 }
 
 /// The class of each sample of a set of several classes, its row in the matrix of azulejo_classes;
 /// NULL for NULL, an empty set and sets made without classes.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_classes(points: Option<&azulejo_points>) -> *const u32 {
-    points.map_or(std::ptr::null(), |points| array(&points.classes))
+pub unsafe extern "C" fn azulejo_points_classes(points: *const azulejo_points) -> *const u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.classes))
 }
 
 /// The ids of the samples of a psp handle that has been edited (azulejo_psp_erase): a sample keeps
 /// its id as long as it stands, and no other one ever gets it. NULL for NULL, an empty set and all
 /// other sets.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_ids(points: Option<&azulejo_points>) -> *const u64 {
-    points.map_or(std::ptr::null(), |points| array(&points.ids))
+pub unsafe extern "C" fn azulejo_points_ids(points: *const azulejo_points) -> *const u64 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.ids))
 }
 
 /// Frees the set with all its arrays. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_points_free(points: Option<Box<azulejo_points>>) {
-    boundary::free(points);
+pub unsafe extern "C" fn azulejo_points_free(points: *mut azulejo_points) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("points", points) };
 }

@@ -1,8 +1,6 @@
 //! PSP: Poisson-disk samples on triangle meshes.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
-use std::ptr::NonNull;
 use std::sync::{RwLock, RwLockWriteGuard, TryLockError};
 
 use azulejo_core::psp::{
@@ -12,22 +10,23 @@ use azulejo_core::psp::{
 use azulejo_core::trace::HAS_EMBREE;
 use azulejo_core::{Context, Given, Order, Points, Progress};
 
-use crate::boundary::{self, check_unused, flag, required};
+use crate::boundary::{self, Out, check_unused, flag};
 use crate::context::azulejo_context;
 use crate::given::given;
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles::{self, handle};
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
-use crate::status::{AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
+use crate::status::{AZULEJO_ERROR_BUSY, AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
 use crate::thin::{AZULEJO_ORDER_ANY, order};
 
 /// A set of samples on a mesh that can grow. It keeps its context and its mesh, which may be freed
 /// before it.
 ///
 /// One call at a time may change it; another one, from another thread or from the progress
-/// callback, is refused. Several threads may copy its points at once.
+/// callback, is refused with AZULEJO_ERROR_BUSY. Several threads may copy its points at once.
 pub struct azulejo_psp {
     context: azulejo_context,
     watch: Watch,
@@ -79,6 +78,8 @@ impl azulejo_psp {
     }
 }
 
+handle!(azulejo_psp);
+
 /// If two candidates of an iteration are too close, the one that its projector faces more squarely
 /// is kept: the default, which finds more samples. Existing samples are always kept.
 pub const AZULEJO_PRIORITY_SQUARENESS: i32 = 0;
@@ -110,7 +111,7 @@ pub struct azulejo_psp_options {
     /// and along edges longer than the radius, a set that is only filled is filled in one piece and
     /// is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples
     /// than unbiased darts give, at the seams of the cubes. azulejo_psp_create refuses any value
-    /// but the default.
+    /// but the default, azulejo_psp_sample 0 with a `maximal` of 0.
     pub iterations: u32,
     /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default; with a
@@ -193,6 +194,10 @@ impl azulejo_psp_options {
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         let order = order(self.order)?;
+        if order == Order::Any && self.count == 0 && self.iterations == 0 && self.maximal == 0 {
+            // A struct of zeros, filled without _init, would be an empty set and a success.
+            return Err(Failure::invalid("iterations", "0 with maximal 0 makes no samples; _init writes the defaults"));
+        }
         if order == Order::Any {
             check_unused("quotient", self.quotient, 0.0, "in any order")?;
         }
@@ -311,14 +316,18 @@ pub unsafe extern "C" fn azulejo_psp_options_init(
 /// AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples on the surface without given ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_create(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_psp_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_psp>>>,
+    out: *mut *mut azulejo_psp,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?.clone();
-        let mesh = &required("mesh", mesh)?.shared;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?.clone();
+        // SAFETY: handed on from the caller.
+        let mesh = &unsafe { handles::get("mesh", mesh) }?.shared;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         // SAFETY: handed on from the caller.
@@ -347,12 +356,12 @@ pub unsafe extern "C" fn azulejo_psp_create(
 /// O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
 /// O(triangles * log triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle and for a
-/// `cosine` above -1; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds what was
-/// finished, and can still grow.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a `cosine` above -1; AZULEJO_ERROR_BUSY while
+/// another call uses the handle; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds
+/// what was finished, and can still grow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_advance(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     iterations: u32,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
@@ -373,13 +382,10 @@ pub unsafe extern "C" fn azulejo_psp_advance(
 ///
 /// O(samples + triangles) time, more for parts that darts hit rarely.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
 /// AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_psp_fill(
-    psp: Option<NonNull<azulejo_psp>>,
-    report: *mut azulejo_psp_report,
-) -> azulejo_status {
+pub unsafe extern "C" fn azulejo_psp_fill(psp: *mut azulejo_psp, report: *mut azulejo_psp_report) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let fill = |state: &mut State, psp: &azulejo_psp| match state {
         State::Growing(growing) => psp.run(|context, progress| growing.fill(context, progress)),
@@ -399,14 +405,15 @@ pub unsafe extern "C" fn azulejo_psp_fill(
 ///
 /// O(samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call changes the handle.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
+/// handle.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_psp_points(
-    psp: Option<&azulejo_psp>,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
-) -> azulejo_status {
-    boundary::create(out, || {
-        let state = required("psp", psp)?.state.try_read().map_err(|error| locked(&error))?;
+pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *mut azulejo_points) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let state = unsafe { handles::get("psp", psp) }?.state.try_read().map_err(|error| locked(&error))?;
         Ok(azulejo_points::surface(state.samples()))
     })
 }
@@ -414,8 +421,9 @@ pub extern "C" fn azulejo_psp_points(
 /// Frees the handle, but not the points taken from it. Must not be called from its own progress
 /// callback. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_psp_free(psp: Option<Box<azulejo_psp>>) {
-    boundary::free(psp);
+pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("psp", psp) };
 }
 
 /// Samples a mesh in one call: azulejo_psp_create, azulejo_psp_advance by `iterations` and, if
@@ -443,15 +451,19 @@ pub extern "C" fn azulejo_psp_free(psp: Option<Box<azulejo_psp>>) {
 /// that is more than floats can carry on the mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_sample(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_psp_options,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: handed on from the caller.
@@ -468,15 +480,15 @@ pub unsafe extern "C" fn azulejo_psp_sample(
 /// A call that adds samples to the set.
 ///
 /// # Safety
-/// `psp` is NULL or a handle that lives as long as the call.
+/// As [`handles::get`] for `psp` and [`Output::optional`] for `report`.
 unsafe fn change(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     report: *mut azulejo_psp_report,
     step: impl FnOnce(&mut State, &azulejo_psp) -> Result<Report, Failure>,
 ) -> azulejo_status {
     boundary::call(|| {
-        // SAFETY: the caller's word. A shared reference, because two calls may meet; the lock parts them.
-        let (psp, report) = unsafe { (required("psp", psp)?.as_ref(), Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller. A shared reference, because two calls may meet; the lock parts them.
+        let (psp, report) = unsafe { (handles::get("psp", psp.cast_const())?, Output::optional("report", report)?) };
         let done = step(&mut *psp.lock()?, psp)?;
         if let Some(report) = report {
             report.write(done);
@@ -487,7 +499,7 @@ unsafe fn change(
 
 fn locked<T>(error: &TryLockError<T>) -> Failure {
     match error {
-        TryLockError::WouldBlock => Failure::invalid("psp", "is in use by another call"),
+        TryLockError::WouldBlock => Failure::new(AZULEJO_ERROR_BUSY, "psp: is in use by another call"),
         TryLockError::Poisoned(_) => {
             Failure::new(AZULEJO_ERROR_INTERNAL, "psp: an internal error broke the set off; it can only be freed")
         }

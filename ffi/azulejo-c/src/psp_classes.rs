@@ -1,15 +1,14 @@
 //! Several classes on a mesh.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::psp::sample_classes;
 use azulejo_core::{Context, Progress};
 
-use crate::boundary::{self, required};
+use crate::boundary::Out;
 use crate::classes::azulejo_classes;
 use crate::context::azulejo_context;
 use crate::given::given_by_class;
 use crate::growing;
+use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
 use crate::psp::azulejo_psp_options;
@@ -43,15 +42,19 @@ use crate::status::azulejo_status;
 /// AZULEJO_ERROR_CANCELLED by the progress callback.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_sample_classes(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_psp_options,
     classes: *const azulejo_classes,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, classes) = unsafe { (growing::read("options", options)?, growing::read("classes", classes)?) };
         // SAFETY: handed on from the caller.

@@ -1,18 +1,16 @@
 //! PSP: sets on meshes that are edited.
 
-use std::mem::MaybeUninit;
-use std::ptr::NonNull;
-
-use azulejo_core::psp::{EditableSet, sample_region};
+use azulejo_core::psp::sample_region;
 use azulejo_core::{Points, Region};
 
-use crate::boundary::{self, check_pointer, check_reserved, required, rows};
+use crate::boundary::{self, Out, check_reserved, rows};
 use crate::context::azulejo_context;
 use crate::given::given;
 use crate::growing::{self, Output, growing};
+use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::{Samples, azulejo_points};
-use crate::psp::{State, azulejo_psp, azulejo_psp_options};
+use crate::psp::{azulejo_psp, azulejo_psp_options};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
@@ -75,19 +73,21 @@ pub unsafe extern "C" fn azulejo_region_init(region: *mut azulejo_region, struct
 ///
 /// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN, and while
-/// another call uses the handle.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
+/// AZULEJO_ERROR_BUSY while another call uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_erase(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     region: *const azulejo_region,
-    erased: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    erased: *mut *mut azulejo_points,
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let region = unsafe { growing::read("region", region) }?.region()?;
+        let (psp, erased) = unsafe { (handles::get("psp", psp.cast_const())?, Out::optional("erased", erased)?) };
         // SAFETY: handed on from the caller.
-        unsafe { edit(psp, |set| Ok((set.erase(&region)?, ()))) }.map(|(points, ())| put(erased, points))
+        let region = unsafe { growing::read("region", region) }?.region()?;
+        put(erased, psp.lock()?.editable().erase(&region)?);
+        Ok(())
     })
 }
 
@@ -99,20 +99,22 @@ pub unsafe extern "C" fn azulejo_psp_erase(
 ///
 /// O(samples in the cubes of 24 radii that they are in).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has, and while
-/// another call uses the handle; nothing is erased then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_erase_ids(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     ids: *const u64,
     count: usize,
-    erased: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    erased: *mut *mut azulejo_points,
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        let (psp, erased) = unsafe { (handles::get("psp", psp.cast_const())?, Out::optional("erased", erased)?) };
         // SAFETY: handed on from the caller.
-        unsafe { edit(psp, |set| Ok((set.erase_ids(ids)?, ()))) }.map(|(points, ())| put(erased, points))
+        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        put(erased, psp.lock()?.editable().erase_ids(ids)?);
+        Ok(())
     })
 }
 
@@ -123,22 +125,19 @@ pub unsafe extern "C" fn azulejo_psp_erase_ids(
 /// O(points + samples in the cubes of 24 radii around them).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
-/// already, or that are too close to a sample or a given sample by now, and while another call uses
-/// the handle; nothing is put back then.
+/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
+/// another call uses the handle. Nothing is put back then.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_psp_restore(
-    psp: Option<NonNull<azulejo_psp>>,
-    points: Option<&azulejo_points>,
-) -> azulejo_status {
+pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *const azulejo_points) -> azulejo_status {
     boundary::call(|| {
-        let (psp, points) = (Some(required("psp", psp)?), required("points", points)?);
+        // SAFETY: handed on from the caller.
+        let (psp, points) = unsafe { (handles::get("psp", psp.cast_const())?, handles::get("points", points)?) };
         let Samples::Surface(samples) = &points.samples else {
             return Err(Failure::invalid("points", "are samples of the plane"));
         };
         // The fields that are kept apart from the others.
         let samples = Points { ids: points.ids.clone(), ..samples.clone() };
-        // SAFETY: handed on from the caller.
-        unsafe { edit(psp, |set| Ok(set.restore(&samples)?)) }
+        Ok(psp.lock()?.editable().restore(&samples)?)
     })
 }
 
@@ -155,28 +154,25 @@ pub unsafe extern "C" fn azulejo_psp_restore(
 ///
 /// O(samples in the cubes of 24 radii that the clearances touch), for each.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle; nothing is
-/// changed then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
+/// Nothing is changed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_add_given(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     positions: *const f32,
     clearances: *const f64,
     count: usize,
     first_id: *mut u64,
-    erased: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    erased: *mut *mut azulejo_points,
 ) -> azulejo_status {
     boundary::call(|| {
-        if !first_id.is_null() {
-            check_pointer("first_id", first_id)?;
-        }
         // SAFETY: handed on from the caller.
-        let given = unsafe { given(positions, clearances, count) }?;
+        let (psp, erased) = unsafe { (handles::get("psp", psp.cast_const())?, Out::optional("erased", erased)?) };
         // SAFETY: handed on from the caller.
-        let (points, first) = unsafe { edit(psp, |set| Ok(set.add_given(given).map(|(id, points)| (points, id))?)) }?;
-        if !first_id.is_null() {
-            // SAFETY: the caller's word, and it was checked before work began.
-            unsafe { boundary::write(first_id, &[first]) };
+        let (first_id, given) = unsafe { (Out::optional("first_id", first_id)?, given(positions, clearances, count)?) };
+        let (first, points) = psp.lock()?.editable().add_given(given)?;
+        if let Some(first_id) = first_id {
+            first_id.write(first);
         }
         put(erased, points);
         Ok(())
@@ -188,19 +184,20 @@ pub unsafe extern "C" fn azulejo_psp_add_given(
 ///
 /// O(given samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has, and while
-/// another call uses the handle; nothing is removed then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_remove_given(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     ids: *const u64,
     count: usize,
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        let psp = unsafe { handles::get("psp", psp.cast_const()) }?;
         // SAFETY: handed on from the caller.
-        unsafe { edit(psp, |set| Ok(set.remove_given(ids)?)) }
+        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        Ok(psp.lock()?.editable().remove_given(ids)?)
     })
 }
 
@@ -219,20 +216,22 @@ pub unsafe extern "C" fn azulejo_psp_remove_given(
 /// O(surface in and around the edited regions + given samples); the first call on a handle also
 /// O(triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also while another call uses the handle;
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
 /// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_refill(
-    psp: Option<NonNull<azulejo_psp>>,
+    psp: *mut azulejo_psp,
     seed: u64,
-    added: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    added: *mut *mut azulejo_points,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
     boundary::call(|| {
-        // SAFETY: handed on from the caller. A shared reference, because two calls may meet; the lock parts them.
-        let (psp, report) = unsafe { (required("psp", psp)?.as_ref(), Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let (psp, added) = unsafe { (handles::get("psp", psp.cast_const())?, Out::optional("added", added)?) };
+        // SAFETY: handed on from the caller.
+        let report = unsafe { Output::optional("report", report) }?;
         let mut state = psp.lock()?;
-        let set = State::editable(&mut state);
+        let set = state.editable();
         let (points, done) = psp.run(|context, progress| set.refill(context, seed, progress))?;
         if let Some(report) = report {
             report.write(done);
@@ -261,20 +260,23 @@ pub unsafe extern "C" fn azulejo_psp_refill(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_sample_region(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_psp_options,
     region: *const azulejo_region,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_psp_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let (context, mesh) = unsafe { (handles::get("context", context)?, handles::get("mesh", mesh)?) };
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: handed on from the caller.
         let (request, region) = unsafe { (options.request_of_region()?, growing::read("region", region)?.region()?) };
+        let mesh = mesh.shared.clone();
         let (samples, done) = context
             .run(options.watch(), |context, progress| sample_region(context, &mesh, &region, &request, progress))?;
         if let Some(report) = report {
@@ -284,22 +286,9 @@ pub unsafe extern "C" fn azulejo_psp_sample_region(
     })
 }
 
-/// Changes the set of a handle, which is one that is edited from then on.
-///
-/// # Safety `psp` is NULL or a handle that lives as long as the call.
-unsafe fn edit<T>(
-    psp: Option<NonNull<azulejo_psp>>,
-    change: impl FnOnce(&mut EditableSet) -> Result<T, Failure>,
-) -> Result<T, Failure> {
-    // SAFETY: the caller's word. A shared reference, because two calls may meet; the lock parts them.
-    let psp = unsafe { required("psp", psp)?.as_ref() };
-    let mut state = psp.lock()?;
-    change(State::editable(&mut state))
-}
-
 /// Hands samples to the caller, if they are wanted.
-fn put(out: Option<&mut MaybeUninit<Box<azulejo_points>>>, points: Points<3>) {
+fn put(out: Option<Out<*mut azulejo_points>>, points: Points<3>) {
     if let Some(out) = out {
-        out.write(Box::new(azulejo_points::surface(points)));
+        out.write(handles::make(azulejo_points::surface(points)));
     }
 }

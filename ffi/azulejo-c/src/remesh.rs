@@ -1,13 +1,13 @@
 //! Remeshing: the mesh of the triangles of samples.
 
-use std::mem::MaybeUninit;
 use std::sync::Arc;
 
 use azulejo_core::dcr::surface::{RemeshReport, remesh};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{Out, rows};
 use crate::context::azulejo_context;
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::progress::Watch;
 use crate::status::azulejo_status;
@@ -123,17 +123,21 @@ pub unsafe extern "C" fn azulejo_dcr_remesh_report_init(
 /// no triangle; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_remesh(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     triangles: *const u32,
     barycentrics: *const f32,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_mesh>>>,
+    out: *mut *mut azulejo_mesh,
     report: *mut azulejo_dcr_remesh_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let report = unsafe { Output::optional("report", report)? };
         // SAFETY: likewise.

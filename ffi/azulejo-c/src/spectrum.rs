@@ -1,14 +1,13 @@
 //! Power spectra of sets of the plane.
 
-use std::mem::MaybeUninit;
-
 use azulejo_core::Error;
 use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram};
 
-use crate::boundary::{self, array, check_pointer, required};
+use crate::boundary::{self, Out, array, check_pointer};
 use crate::context::azulejo_context;
 use crate::domain::{PlaneSet, azulejo_plane_set};
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles::{self, handle};
 use crate::status::{Failure, azulejo_status};
 
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 /
@@ -20,6 +19,8 @@ use crate::status::{Failure, azulejo_status};
 pub struct azulejo_spectrum {
     periodogram: Periodogram,
 }
+
+handle!(azulejo_spectrum);
 
 /// The frequencies of about one length: a point of the radial curves. It has no struct_size and
 /// never grows.
@@ -115,13 +116,15 @@ pub unsafe extern "C" fn azulejo_spectrum_report_init(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_create(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
     size: u32,
     stride: u32,
-    out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
+    out: *mut *mut azulejo_spectrum,
 ) -> azulejo_status {
-    boundary::create(out, || {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         // SAFETY: handed on from the caller.
         let set = unsafe { PlaneSet::read(context, set) }?;
         let [size, stride] = [size, stride].map(|number| number as usize);
@@ -147,11 +150,13 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
 pub unsafe extern "C" fn azulejo_spectrum_mean(
     spectra: *const *const azulejo_spectrum,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_spectrum>>>,
+    out: *mut *mut azulejo_spectrum,
 ) -> azulejo_status {
-    boundary::create(out, || {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
         // SAFETY: handed on from the caller.
-        let spectra = unsafe { boundary::handles("spectra", spectra, count) }?;
+        let spectra = unsafe { handles::all("spectra", spectra, count) }?;
         let periodograms: Vec<_> = spectra.iter().map(|spectrum| spectrum.periodogram.clone()).collect();
         Ok(azulejo_spectrum { periodogram: Periodogram::mean(&periodograms)? })
     })
@@ -159,15 +164,18 @@ pub unsafe extern "C" fn azulejo_spectrum_mean(
 
 /// The number of frequencies per side; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_spectrum_size(spectrum: Option<&azulejo_spectrum>) -> u32 {
-    spectrum.map_or(0, |spectrum| spectrum.periodogram.size() as u32)
+pub unsafe extern "C" fn azulejo_spectrum_size(spectrum: *const azulejo_spectrum) -> u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("spectrum", spectrum) }.map_or(0, |spectrum| spectrum.periodogram.size() as u32)
 }
 
 /// The power, size * size numbers, row by row from the lowest frequency. Frequency 0, whose power
 /// is set to 0, is in row and column size / 2. Valid until azulejo_spectrum_free. NULL for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_spectrum_power(spectrum: Option<&azulejo_spectrum>) -> *const f32 {
-    spectrum.map_or(std::ptr::null(), |spectrum| array(spectrum.periodogram.power()))
+pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectrum) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("spectrum", spectrum) }
+        .map_or(std::ptr::null(), |spectrum| array(spectrum.periodogram.power()))
 }
 
 /// The radial curves of a spectrum, mean and anisotropy, out to its largest circle.
@@ -185,15 +193,18 @@ pub extern "C" fn azulejo_spectrum_power(spectrum: Option<&azulejo_spectrum>) ->
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_radial(
-    spectrum: Option<&azulejo_spectrum>,
+    spectrum: *const azulejo_spectrum,
     width: f64,
     annuli: *mut azulejo_annulus,
     capacity: usize,
-    out_count: Option<&mut MaybeUninit<usize>>,
+    out_count: *mut usize,
 ) -> azulejo_status {
     boundary::call(|| {
-        let out_count = required("out_count", out_count)?;
-        let spectrum = required("spectrum", spectrum)?;
+        // SAFETY: handed on from the caller.
+        let out_count = unsafe { Out::new(out_count) };
+        out_count.check("out_count")?;
+        // SAFETY: handed on from the caller.
+        let spectrum = unsafe { handles::get("spectrum", spectrum) }?;
         if capacity > 0 {
             check_pointer("annuli", annuli.cast_const())?;
         }
@@ -228,7 +239,7 @@ impl From<Annulus> for azulejo_annulus {
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_measure(
-    spectrum: Option<&azulejo_spectrum>,
+    spectrum: *const azulejo_spectrum,
     width: f64,
     low: f64,
     high: f64,
@@ -237,7 +248,8 @@ pub unsafe extern "C" fn azulejo_spectrum_measure(
     boundary::call(|| {
         // SAFETY: handed on from the caller.
         let out = unsafe { Output::required("out", out) }?;
-        let of = &required("spectrum", spectrum)?.periodogram;
+        // SAFETY: handed on from the caller.
+        let of = &unsafe { handles::get("spectrum", spectrum) }?.periodogram;
         for (argument, frequency) in [("low", low), ("high", high)] {
             if !frequency.is_finite() {
                 return Err(Failure::invalid(argument, format!("{frequency} is not a finite number")));
@@ -267,6 +279,7 @@ fn unless_too_small(figure: azulejo_core::Result<f64>) -> azulejo_core::Result<f
 
 /// Frees the spectrum. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_spectrum_free(spectrum: Option<Box<azulejo_spectrum>>) {
-    boundary::free(spectrum);
+pub unsafe extern "C" fn azulejo_spectrum_free(spectrum: *mut azulejo_spectrum) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("spectrum", spectrum) };
 }

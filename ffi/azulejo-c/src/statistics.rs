@@ -101,7 +101,7 @@ pub unsafe extern "C" fn azulejo_plane_report_init(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
     out: *mut azulejo_plane_report,
 ) -> azulejo_status {
@@ -156,7 +156,7 @@ fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_repor
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
     reach: f64,
     bins: usize,
@@ -201,7 +201,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_radial_distribution(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     set: *const azulejo_plane_set,
     reach: f64,
     bins: usize,

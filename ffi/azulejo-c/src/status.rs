@@ -1,7 +1,7 @@
 //! Status codes, and the last error of each thread.
 
 use std::cell::RefCell;
-use std::ffi::c_char;
+use std::ffi::{CStr, c_char};
 
 use azulejo_core::Error;
 
@@ -29,6 +29,11 @@ pub const AZULEJO_ERROR_EMBREE: i32 = -7;
 /// Threads could not be started, or the context's threads are in the process from which this one
 /// was forked.
 pub const AZULEJO_ERROR_THREADS: i32 = -8;
+/// A handle is in use by another call, from another thread or around the callback that makes this
+/// one. The same call succeeds later.
+pub const AZULEJO_ERROR_BUSY: i32 = -9;
+/// The library was built without what the call needs: Embree. azulejo_has_embree tells before.
+pub const AZULEJO_ERROR_UNSUPPORTED: i32 = -10;
 /// A bug in the library; please report it. Handles that took part in the call can only be freed.
 pub const AZULEJO_ERROR_INTERNAL: i32 = -100;
 
@@ -70,6 +75,7 @@ impl From<Error> for Failure {
             Error::Cancelled => AZULEJO_ERROR_CANCELLED,
             Error::Embree(_) => AZULEJO_ERROR_EMBREE,
             Error::Threads { .. } | Error::Forked => AZULEJO_ERROR_THREADS,
+            Error::Unsupported(_) => AZULEJO_ERROR_UNSUPPORTED,
             // The enum may grow inside the workspace; an error without a code of its own is a bug of this crate.
             _ => AZULEJO_ERROR_INTERNAL,
         };
@@ -108,9 +114,68 @@ pub unsafe extern "C" fn azulejo_last_error_message(buffer: *mut c_char, capacit
     LAST_ERROR.try_with(copy).unwrap_or(0)
 }
 
+/// The names of the codes, from the constants themselves.
+macro_rules! names {
+    ($($name:ident),* $(,)?) => {
+        /// The name of a status.
+        fn name(status: azulejo_status) -> Option<&'static CStr> {
+            match status {
+                $($name => Some(const {
+                    match CStr::from_bytes_with_nul(concat!(stringify!($name), "\0").as_bytes()) {
+                        Ok(name) => name,
+                        Err(_) => unreachable!(),
+                    }
+                }),)*
+                _ => None,
+            }
+        }
+
+        #[cfg(test)]
+        const ALL: &[(&str, azulejo_status)] = &[$((stringify!($name), $name)),*];
+    };
+}
+
+names! {
+    AZULEJO_OK,
+    AZULEJO_ERROR_INVALID_ARGUMENT,
+    AZULEJO_ERROR_TOO_LARGE,
+    AZULEJO_ERROR_IO,
+    AZULEJO_ERROR_FORMAT,
+    AZULEJO_ERROR_CANCELLED,
+    AZULEJO_ERROR_OUT_OF_MEMORY,
+    AZULEJO_ERROR_EMBREE,
+    AZULEJO_ERROR_THREADS,
+    AZULEJO_ERROR_BUSY,
+    AZULEJO_ERROR_UNSUPPORTED,
+    AZULEJO_ERROR_INTERNAL,
+}
+
+/// The name of a status: "AZULEJO_ERROR_BUSY" for AZULEJO_ERROR_BUSY. NULL for a number that is
+/// none of this library's. The text is never freed.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_status_name(status: azulejo_status) -> *const c_char {
+    name(status).map_or(std::ptr::null(), CStr::as_ptr)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_status_of_the_header_has_its_name() {
+        let header = include_str!("../../../include/azulejo.h");
+        let defined = header.lines().filter_map(|line| line.strip_prefix("#define ")?.split_once(' '));
+        let defined: Vec<_> = defined
+            .filter(|(name, _)| *name == "AZULEJO_OK" || name.starts_with("AZULEJO_ERROR_"))
+            .map(|(name, value)| (name, value.parse().unwrap()))
+            .collect();
+        assert_eq!(defined, ALL);
+        for &(text, status) in ALL {
+            // SAFETY: a static text with a NUL at its end.
+            assert_eq!(unsafe { CStr::from_ptr(azulejo_status_name(status)) }.to_str(), Ok(text));
+        }
+        assert!(azulejo_status_name(1).is_null() && azulejo_status_name(-99).is_null());
+    }
 
     fn last_error(capacity: usize) -> (usize, String) {
         let mut buffer = vec![b'x' as c_char; 64];

@@ -1,14 +1,14 @@
 //! DCR on surfaces: relaxation of the samples of a mesh.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::dcr::surface::{self, Options, Report};
 
-use crate::boundary::{self, required, rows};
+use crate::boundary::{Out, rows};
 use crate::context::azulejo_context;
 use crate::dcr::reason;
 use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
@@ -148,18 +148,22 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 /// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_relax(
-    context: Option<&azulejo_context>,
-    mesh: Option<&azulejo_mesh>,
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
     options: *const azulejo_dcr_surface_options,
     triangles: *const u32,
     barycentrics: *const f32,
     count: usize,
-    out: Option<&mut MaybeUninit<Box<azulejo_points>>>,
+    out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_surface_report,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
-        let mesh = required("mesh", mesh)?.shared.clone();
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: likewise.

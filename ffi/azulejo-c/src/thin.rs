@@ -1,14 +1,14 @@
 //! Thinning: some points of a cloud, far from each other and near to all the others.
 
 use std::ffi::c_void;
-use std::mem::MaybeUninit;
 
 use azulejo_core::Order;
 use azulejo_core::thin::{Options, Selection, thin};
 
-use crate::boundary::{self, array, required, rows};
+use crate::boundary::{Out, array, rows};
 use crate::context::azulejo_context;
 use crate::growing::{self, growing};
+use crate::handles::{self, handle};
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
@@ -92,6 +92,8 @@ pub struct azulejo_selection {
     selection: Selection,
 }
 
+handle!(azulejo_selection);
+
 /// Selects points of a cloud that are far from each other and near to all the others.
 ///
 /// With a radius, the selected points are at least the radius apart; without a count, every other
@@ -115,15 +117,18 @@ pub struct azulejo_selection {
 /// AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_thin(
-    context: Option<&azulejo_context>,
+    context: *const azulejo_context,
     options: *const azulejo_thin_options,
     positions: *const f32,
     count: usize,
     dimensions: u32,
-    out: Option<&mut MaybeUninit<Box<azulejo_selection>>>,
+    out: *mut *mut azulejo_selection,
 ) -> azulejo_status {
-    boundary::create(out, || {
-        let context = required("context", context)?;
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         let selection = match dimensions {
@@ -149,15 +154,18 @@ fn select<const D: usize>(
 
 /// The number of selected points; 0 for NULL.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_selection_count(selection: Option<&azulejo_selection>) -> usize {
-    selection.map_or(0, |selection| selection.selection.indices.len())
+pub unsafe extern "C" fn azulejo_selection_count(selection: *const azulejo_selection) -> usize {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("selection", selection) }.map_or(0, |selection| selection.selection.indices.len())
 }
 
 /// The indices of the selected points in the cloud: ascending in any order, in the order of
 /// selection in the progressive one. NULL for NULL and for an empty selection.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_selection_indices(selection: Option<&azulejo_selection>) -> *const u32 {
-    selection.map_or(std::ptr::null(), |selection| array(&selection.selection.indices))
+pub unsafe extern "C" fn azulejo_selection_indices(selection: *const azulejo_selection) -> *const u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("selection", selection) }
+        .map_or(std::ptr::null(), |selection| array(&selection.selection.indices))
 }
 
 /// The ranks of the points of a progressive selection: the distance of each from the nearest of
@@ -165,14 +173,17 @@ pub extern "C" fn azulejo_selection_indices(selection: Option<&azulejo_selection
 /// points that coincide with one before are 0. All points with a rank of at least r are at least r
 /// apart. NULL for NULL, an empty selection and AZULEJO_ORDER_ANY.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_selection_ranks(selection: Option<&azulejo_selection>) -> *const f32 {
-    selection.map_or(std::ptr::null(), |selection| array(&selection.selection.ranks))
+pub unsafe extern "C" fn azulejo_selection_ranks(selection: *const azulejo_selection) -> *const f32 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("selection", selection) }
+        .map_or(std::ptr::null(), |selection| array(&selection.selection.ranks))
 }
 
 /// Frees the selection with its arrays. NULL is allowed.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_selection_free(selection: Option<Box<azulejo_selection>>) {
-    boundary::free(selection);
+pub unsafe extern "C" fn azulejo_selection_free(selection: *mut azulejo_selection) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("selection", selection) };
 }
 
 #[cfg(test)]

@@ -19,11 +19,11 @@ pub extern "C" fn azulejo_version() -> u32 {
 }
 
 /// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
-/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_EMBREE, and everything else is
-/// there: sets on meshes are filled, as by default, or projected by the rasteriser.
+/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_UNSUPPORTED, and everything else
+/// is there: sets on meshes are filled, as by default, or projected by the rasteriser.
 ///
 /// Embree is loaded by the first call that uses it. If the machine has none, such calls are refused
-/// in the same way, and the message names the file that was not found.
+/// with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_has_embree() -> i32 {
     i32::from(HAS_EMBREE)

@@ -3,7 +3,7 @@
 
 use std::ffi::c_void;
 use std::mem::MaybeUninit;
-use std::ptr::{NonNull, null, null_mut};
+use std::ptr::{null, null_mut};
 
 use azulejo_c::adaptive::*;
 use azulejo_c::analysis::*;
@@ -26,12 +26,62 @@ use azulejo_c::status::*;
 use azulejo_c::thin::*;
 use azulejo_c::version::{azulejo_has_embree, azulejo_version};
 
-type Out<'a, T> = Option<&'a mut MaybeUninit<T>>;
+/// A handle, which its own function frees when it is dropped.
+struct Owned<T: Freed>(*mut T);
+
+/// A type that the library makes handles of.
+trait Freed {
+    /// The function that frees one.
+    const FREE: unsafe extern "C" fn(*mut Self);
+}
+
+macro_rules! freed {
+    ($($name:ty: $free:ident),*) => {
+        $(impl Freed for $name {
+            const FREE: unsafe extern "C" fn(*mut Self) = $free;
+        })*
+    };
+}
+freed!(
+    azulejo_context: azulejo_context_free,
+    azulejo_kdrt: azulejo_kdrt_free,
+    azulejo_mesh: azulejo_mesh_free,
+    azulejo_psp: azulejo_psp_free,
+    azulejo_points: azulejo_points_free,
+    azulejo_selection: azulejo_selection_free
+);
+
+impl<T: Freed> Owned<T> {
+    /// The handle for a call.
+    fn get(&self) -> *mut T {
+        self.0
+    }
+
+    /// What an accessor of the library tells of the handle.
+    fn read<R>(&self, accessor: unsafe extern "C" fn(*const T) -> R) -> R {
+        // SAFETY: the handle lives, and that is all that accessors ask for.
+        unsafe { accessor(self.0) }
+    }
+}
+
+impl<T: Freed> Drop for Owned<T> {
+    fn drop(&mut self) {
+        // SAFETY: the only owner.
+        unsafe { T::FREE(self.0) }
+    }
+}
+
+type Out<T> = *mut T;
+
+/// The handle that a call makes, which has to succeed.
+fn made<T: Freed>(call: impl FnOnce(Out<*mut T>) -> azulejo_status) -> Owned<T> {
+    Owned(value(call))
+}
 
 /// The output of a call, which has to succeed.
-fn made<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> T {
+fn value<T>(call: impl FnOnce(Out<T>) -> azulejo_status) -> T {
     let mut out = MaybeUninit::uninit();
-    assert_eq!(call(Some(&mut out)), AZULEJO_OK, "{}", last_error());
+    assert_eq!(call(out.as_mut_ptr()), AZULEJO_OK, "{}", last_error());
     // SAFETY: the call has succeeded.
     unsafe { out.assume_init() }
 }
@@ -53,12 +103,13 @@ fn defaults<T>(init: unsafe extern "C" fn(*mut T, usize) -> azulejo_status) -> T
     }
 }
 
-fn context() -> Box<azulejo_context> {
-    made(|out| azulejo_context_create(1, out))
+fn context() -> Owned<azulejo_context> {
+    // SAFETY: the output is there.
+    made(|out| unsafe { azulejo_context_create(1, out) })
 }
 
 /// Two triangles, with something between the vertices.
-fn mesh() -> Box<azulejo_mesh> {
+fn mesh() -> Owned<azulejo_mesh> {
     let rows = [[0.0f32, 0.0, 0.0, 9.0], [1.0, 0.0, 0.0, 9.0], [1.0, 1.0, 0.0, 9.0], [0.0, 1.0, 0.5, 9.0]];
     let indices = [0u32, 1, 2, 0, 2, 3];
     // SAFETY: four vertices, two triangles.
@@ -66,27 +117,27 @@ fn mesh() -> Box<azulejo_mesh> {
 }
 
 /// Reads all arrays of a set to their ends, and frees it; returns how many samples there were.
-fn read_and_free(points: Box<azulejo_points>) -> usize {
-    let set = Some(&*points);
-    let count = azulejo_points_count(set);
+fn read_and_free(points: Owned<azulejo_points>) -> usize {
+    let set = &points;
+    let count = set.read(azulejo_points_count);
     let sum = |start: *const f32, length: usize| -> f32 {
         // SAFETY: the header says that the arrays are that long.
         (0..if start.is_null() { 0 } else { length }).map(|i| unsafe { start.add(i).read() }).sum()
     };
-    assert!(sum(azulejo_points_positions(set), count * azulejo_points_dimension(set) as usize).is_finite());
-    for array in [azulejo_points_normals(set), azulejo_points_interpolated_normals(set)] {
+    assert!(sum(set.read(azulejo_points_positions), count * set.read(azulejo_points_dimension) as usize).is_finite());
+    for array in [set.read(azulejo_points_normals), set.read(azulejo_points_interpolated_normals)] {
         assert!(sum(array, 3 * count).is_finite());
     }
-    assert!(sum(azulejo_points_barycentrics(set), 2 * count).is_finite());
-    let (triangles, radii) = (azulejo_points_triangles(set), azulejo_points_radii(set));
+    assert!(sum(set.read(azulejo_points_barycentrics), 2 * count).is_finite());
+    let (triangles, radii) = (set.read(azulejo_points_triangles), set.read(azulejo_points_radii));
     // SAFETY: as above.
     assert!((0..count).all(|i| triangles.is_null() || unsafe { triangles.add(i).read() } < 2));
     // SAFETY: as above.
     assert!((0..count).all(|i| radii.is_null() || unsafe { radii.add(i).read() } > 0.0));
-    let classes = azulejo_points_classes(set);
+    let classes = set.read(azulejo_points_classes);
     // SAFETY: as above.
     assert!((0..count).all(|i| classes.is_null() || unsafe { classes.add(i).read() } < AZULEJO_MAX_CLASSES));
-    azulejo_points_free(Some(points));
+    drop(points);
     count
 }
 
@@ -125,35 +176,33 @@ fn planes() {
     options.progress_user = (&raw mut calls).cast();
     // SAFETY: the options have the size in their `struct_size`, here and below.
     unsafe {
-        assert!(read_and_free(made(|out| azulejo_kdrt_sample(Some(&context), &options, out, null_mut()))) > 2);
+        assert!(read_and_free(made(|out| azulejo_kdrt_sample(context.get(), &options, out, null_mut()))) > 2);
         let corners = [[0.0, 0.0], [0.5, 1.0f64]];
         let [low, high] = [corners[0].as_ptr(), corners[1].as_ptr()];
-        read_and_free(made(|out| azulejo_kdrt_sample_window(Some(&context), &options, low, high, out)));
-        let plane = made(|out| azulejo_kdrt_create(Some(&context), &options, out));
-        read_and_free(made(|out| azulejo_kdrt_window(Some(&plane), low, high, out)));
-        azulejo_kdrt_free(Some(plane));
+        read_and_free(made(|out| azulejo_kdrt_sample_window(context.get(), &options, low, high, out)));
+        let plane = made(|out| azulejo_kdrt_create(context.get(), &options, out));
+        read_and_free(made(|out| azulejo_kdrt_window(plane.get(), low, high, out)));
+        drop(plane);
         let (mut matrix, mut classes) = ([0f64; 4], defaults(azulejo_classes_init));
         assert_eq!(azulejo_classes_radii([0.45f64, 0.3].as_ptr(), 2, 1.0, matrix.as_mut_ptr()), AZULEJO_OK);
         (classes.count, classes.radii) = (2, matrix.as_ptr());
         let alone = azulejo_kdrt_options { radius: 0.0, ..options };
-        let set = made(|out| azulejo_kdrt_sample_classes(Some(&context), &alone, &classes, out));
-        assert_eq!(azulejo_points_classes(Some(&*set)).read(), 0);
+        let set = made(|out| azulejo_kdrt_sample_classes(context.get(), &alone, &classes, out));
+        assert_eq!(set.read(azulejo_points_classes).read(), 0);
         read_and_free(set);
-        let plane = made(|out| azulejo_kdrt_create_classes(Some(&context), &alone, &classes, out));
-        read_and_free(made(|out| azulejo_kdrt_window(Some(&plane), low, high, out)));
-        azulejo_kdrt_free(Some(plane));
+        let plane = made(|out| azulejo_kdrt_create_classes(context.get(), &alone, &classes, out));
+        read_and_free(made(|out| azulejo_kdrt_window(plane.get(), low, high, out)));
+        drop(plane);
         let mut visited = 0u32;
-        assert_eq!(azulejo_kdrt_stream(Some(&context), &options, Some(visit), (&raw mut visited).cast()), AZULEJO_OK);
+        assert_eq!(azulejo_kdrt_stream(context.get(), &options, Some(visit), (&raw mut visited).cast()), AZULEJO_OK);
         assert!(visited > 2 && calls > 0);
         options.progress = Some(stop);
-        assert_eq!(
-            azulejo_kdrt_sample(Some(&context), &options, Some(&mut MaybeUninit::uninit()), null_mut()),
-            AZULEJO_ERROR_CANCELLED
-        );
+        let mut none = null_mut();
+        assert_eq!(azulejo_kdrt_sample(context.get(), &options, &raw mut none, null_mut()), AZULEJO_ERROR_CANCELLED);
 
         let mut options = defaults(azulejo_maximal_options_init);
         options.radius = 0.5;
-        read_and_free(made(|out| azulejo_maximal_sample(Some(&context), &options, out)));
+        read_and_free(made(|out| azulejo_maximal_sample(context.get(), &options, out)));
 
         let mut options = defaults(azulejo_kdrt_merge_options_init);
         options.radius = 0.5;
@@ -162,12 +211,12 @@ fn planes() {
         let fixed = [0.75f32, 0.5];
         let mut report = defaults(azulejo_kdrt_merge_report_init);
         let merge = |out: Out<_>| {
-            azulejo_kdrt_merge(Some(&context), &options, &piece, 1, fixed.as_ptr(), 1, out, &raw mut report)
+            azulejo_kdrt_merge(context.get(), &options, &piece, 1, fixed.as_ptr(), 1, out, &raw mut report)
         };
         assert!(read_and_free(made(merge)) >= 2);
         assert_eq!(report.kept, 1);
     }
-    azulejo_context_free(Some(context));
+    drop(context);
 }
 
 #[test]
@@ -178,18 +227,17 @@ fn clouds() {
     options.order = AZULEJO_ORDER_PROGRESSIVE;
     for (count, dimensions) in [(21, 2), (14, 3), (0, 2)] {
         // SAFETY: 21 points of the plane, 14 of space.
-        let selection = made(|out| unsafe {
-            azulejo_thin(Some(&context), &options, cloud.as_ptr().cast(), count, dimensions, out)
-        });
-        assert_eq!(azulejo_selection_count(Some(&selection)), count);
-        let (indices, ranks) = (azulejo_selection_indices(Some(&selection)), azulejo_selection_ranks(Some(&selection)));
+        let selection =
+            made(|out| unsafe { azulejo_thin(context.get(), &options, cloud.as_ptr().cast(), count, dimensions, out) });
+        assert_eq!(selection.read(azulejo_selection_count), count);
+        let (indices, ranks) = (selection.read(azulejo_selection_indices), selection.read(azulejo_selection_ranks));
         for i in 0..count {
             // SAFETY: the arrays have an entry for each point.
             assert!(unsafe { (*indices.add(i) as usize) < count && *ranks.add(i) >= 0.0 });
         }
-        azulejo_selection_free(Some(selection));
+        drop(selection);
     }
-    azulejo_context_free(Some(context));
+    drop(context);
 }
 
 #[test]
@@ -199,80 +247,77 @@ fn surfaces() {
     // SAFETY: the arrays have the given lengths.
     let (normal, masked) = unsafe {
         (
-            made(|out| azulejo_mesh_with_normals(Some(&mesh), normals.as_ptr(), 1, 12, [0u32; 6].as_ptr(), 2, out)),
-            made(|out| azulejo_mesh_with_mask(Some(&mesh), [1u8, 0].as_ptr(), 2, out)),
+            made(|out| azulejo_mesh_with_normals(mesh.get(), normals.as_ptr(), 1, 12, [0u32; 6].as_ptr(), 2, out)),
+            made(|out| azulejo_mesh_with_mask(mesh.get(), [1u8, 0].as_ptr(), 2, out)),
         )
     };
-    assert_eq!((azulejo_mesh_has_normals(Some(&normal)), azulejo_mesh_vertex_count(Some(&masked))), (1, 4));
+    assert_eq!((normal.read(azulejo_mesh_has_normals), masked.read(azulejo_mesh_vertex_count)), (1, 4));
     // SAFETY: four vertices, two triangles.
     unsafe {
-        assert_eq!(azulejo_mesh_positions(Some(&mesh)).add(11).read(), 0.5);
-        assert_eq!(azulejo_mesh_indices(Some(&mesh)).add(5).read(), 3);
+        assert_eq!(mesh.read(azulejo_mesh_positions).add(11).read(), 0.5);
+        assert_eq!(mesh.read(azulejo_mesh_indices).add(5).read(), 3);
     }
     let moved = [[0.0f32, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 2.0, 1.0], [0.0, 2.0, 1.0]];
     let (triangles, places) = ([1u32, 0], [[0.5f32, 0.25], [0.0, 1.0]]);
     // SAFETY: four vertices without gaps, and two places.
     unsafe {
-        let deformed = made(|out| azulejo_mesh_deform(Some(&mesh), moved.as_ptr().cast(), 4, 12, out));
+        let deformed = made(|out| azulejo_mesh_deform(mesh.get(), moved.as_ptr().cast(), 4, 12, out));
         let places = places.as_ptr().cast();
-        let points = made(|out| azulejo_mesh_points(Some(&deformed), triangles.as_ptr(), places, 2, out));
-        let positions = azulejo_points_positions(Some(&points)).cast::<[f32; 3]>();
+        let points = made(|out| azulejo_mesh_points(deformed.get(), triangles.as_ptr(), places, 2, out));
+        let positions = points.read(azulejo_points_positions).cast::<[f32; 3]>();
         assert_eq!((positions.read(), positions.add(1).read()), ([1.0, 1.5, 1.0], [2.0, 2.0, 1.0]));
         assert_eq!(read_and_free(points), 2);
-        azulejo_mesh_free(Some(deformed));
+        drop(deformed);
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);
     // SAFETY: the options have the size in their `struct_size`; the handle lives.
     unsafe {
         if !cfg!(miri) {
-            read_and_free(made(|out| azulejo_psp_sample(Some(&context), Some(&normal), &options, out, null_mut())));
+            read_and_free(made(|out| azulejo_psp_sample(context.get(), normal.get(), &options, out, null_mut())));
             let (mut classes, mut radii, masks) = (defaults(azulejo_classes_init), [0.0; 4], [1u32, 3]);
             assert_eq!(azulejo_classes_radii([0.9, 0.7].as_ptr(), 2, 1.0, radii.as_mut_ptr()), AZULEJO_OK);
             (classes.count, classes.radii, classes.masks, classes.mask_count) = (2, radii.as_ptr(), masks.as_ptr(), 2);
             let options = defaults(azulejo_psp_options_init);
-            let sample =
-                |out: Out<_>| azulejo_psp_sample_classes(Some(&context), Some(&normal), &options, &classes, out);
+            let sample = |out: Out<_>| azulejo_psp_sample_classes(context.get(), normal.get(), &options, &classes, out);
             read_and_free(made(sample));
         }
-        let mut set = made(|out| azulejo_psp_create(Some(&context), Some(&masked), &options, out));
-        azulejo_mesh_free(Some(masked));
-        let handle = NonNull::from(&mut *set);
+        let set = made(|out| azulejo_psp_create(context.get(), masked.get(), &options, out));
+        drop(masked);
+        let handle = set.get();
         // Patterns and fragments take Miri minutes.
         let iterations = if cfg!(miri) { 0 } else { 1 };
-        assert_eq!(azulejo_psp_advance(Some(handle), iterations, null_mut()), AZULEJO_OK);
-        assert!(cfg!(miri) || azulejo_psp_fill(Some(handle), null_mut()) == AZULEJO_OK);
+        assert_eq!(azulejo_psp_advance(handle, iterations, null_mut()), AZULEJO_OK);
+        assert!(cfg!(miri) || azulejo_psp_fill(handle, null_mut()) == AZULEJO_OK);
         edit(handle);
-        assert!(read_and_free(made(|out| azulejo_psp_points(Some(&set), out))) > 0 || cfg!(miri));
-        azulejo_psp_free(Some(set));
+        assert!(read_and_free(made(|out| azulejo_psp_points(set.get(), out))) > 0 || cfg!(miri));
+        drop(set);
     }
-    azulejo_mesh_free(Some(normal));
-    azulejo_mesh_free(Some(mesh));
-    azulejo_context_free(Some(context));
+    drop(normal);
+    drop(mesh);
+    drop(context);
 }
 
 /// Edits of a set, which has no samples yet under Miri.
 ///
 /// # Safety
 /// The handle lives.
-unsafe fn edit(set: NonNull<azulejo_psp>) {
+unsafe fn edit(set: *mut azulejo_psp) {
     let mut all = defaults(azulejo_region_init);
     let (place, clearance, mut id) = ([0.5f32, 0.5, 0.0], 0.1f64, 7u64);
-    // SAFETY: the handle lives, and the arrays are as long as the calls are told.
+    // SAFETY: the handle lives, and the arrays have the given lengths.
     unsafe {
-        let add = |out: Out<_>| azulejo_psp_add_given(Some(set), place.as_ptr(), &clearance, 1, &mut id, out);
-        read_and_free(made(add));
-        assert_eq!(azulejo_psp_remove_given(Some(set), &id, 1), AZULEJO_OK);
-        assert_eq!(azulejo_psp_remove_given(Some(set), &id, 1), AZULEJO_ERROR_INVALID_ARGUMENT);
-        let erased = made(|out| azulejo_psp_erase(Some(set), &all, out));
-        let ids = azulejo_points_ids(Some(&erased));
-        assert_eq!(azulejo_psp_restore(Some(set), Some(&erased)), AZULEJO_OK);
-        assert_eq!(azulejo_psp_erase_ids(Some(set), ids, azulejo_points_count(Some(&erased)), None), AZULEJO_OK);
-        assert_eq!(azulejo_psp_erase_ids(Some(set), &id, 1, None), AZULEJO_ERROR_INVALID_ARGUMENT);
-        azulejo_points_free(Some(erased));
+        read_and_free(made(|out: Out<_>| azulejo_psp_add_given(set, place.as_ptr(), &clearance, 1, &mut id, out)));
+        assert_eq!(azulejo_psp_remove_given(set, &id, 1), AZULEJO_OK);
+        assert_eq!(azulejo_psp_remove_given(set, &id, 1), AZULEJO_ERROR_INVALID_ARGUMENT);
+        let erased = made(|out| azulejo_psp_erase(set, &all, out));
+        let (ids, count) = (erased.read(azulejo_points_ids), erased.read(azulejo_points_count));
+        assert_eq!(azulejo_psp_restore(set, erased.get()), AZULEJO_OK);
+        assert_eq!(azulejo_psp_erase_ids(set, ids, count, null_mut()), AZULEJO_OK);
+        assert_eq!(azulejo_psp_erase_ids(set, &id, 1, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
         all.radius = f64::NAN;
-        assert_eq!(azulejo_psp_erase(Some(set), &all, None), AZULEJO_ERROR_INVALID_ARGUMENT);
-        assert!(cfg!(miri) || azulejo_psp_refill(Some(set), 3, None, null_mut()) == AZULEJO_OK);
+        assert_eq!(azulejo_psp_erase(set, &all, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert!(cfg!(miri) || azulejo_psp_refill(set, 3, null_mut(), null_mut()) == AZULEJO_OK);
     }
 }
 
@@ -288,22 +333,22 @@ fn adaptive_surfaces() {
         let radii = [0.8f32, 0.9, 1.0, 1.1];
         options.vertex_radii = radii.as_ptr();
         options.vertex_count = 4;
-        let refused = azulejo_psp_adaptive_sample(Some(&context), Some(&mesh), &options, Some(&mut out), null_mut());
+        let refused = azulejo_psp_adaptive_sample(context.get(), mesh.get(), &options, out.as_mut_ptr(), null_mut());
         assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
         options.cosine = -1.0;
         if cfg!(miri) {
-            azulejo_mesh_free(Some(mesh));
-            azulejo_context_free(Some(context));
+            drop(mesh);
+            drop(context);
             return;
         }
-        read_and_free(made(|out| azulejo_psp_adaptive_sample(Some(&context), Some(&mesh), &options, out, null_mut())));
+        read_and_free(made(|out| azulejo_psp_adaptive_sample(context.get(), mesh.get(), &options, out, null_mut())));
         (options.vertex_radii, options.vertex_count) = (null(), 0);
         options.radius = Some(radius_at);
         (options.smallest, options.largest, options.slope, options.radius_user) = (0.8, 1.0, 0.1, null_mut());
-        read_and_free(made(|out| azulejo_psp_adaptive_sample(Some(&context), Some(&mesh), &options, out, null_mut())));
+        read_and_free(made(|out| azulejo_psp_adaptive_sample(context.get(), mesh.get(), &options, out, null_mut())));
     }
-    azulejo_mesh_free(Some(mesh));
-    azulejo_context_free(Some(context));
+    drop(mesh);
+    drop(context);
 }
 
 #[test]
@@ -316,7 +361,7 @@ fn points() {
     unsafe {
         for method in [AZULEJO_METHOD_MOMENTUM, AZULEJO_METHOD_THESIS] {
             options.method = method;
-            let relax = |out: Out<_>| azulejo_dcr_relax(Some(&context), &options, xy.as_ptr(), 3, out, null_mut());
+            let relax = |out: Out<_>| azulejo_dcr_relax(context.get(), &options, xy.as_ptr(), 3, out, null_mut());
             assert_eq!(read_and_free(made(relax)), 3);
         }
         options.method = AZULEJO_METHOD_MOMENTUM;
@@ -324,26 +369,26 @@ fn points() {
         let (rho, coverage) = (rho.as_mut_ptr(), coverage.as_mut_ptr());
         let (xy_of, of) = (xy.as_ptr(), classes.as_ptr());
         let relax = |out: Out<_>| {
-            azulejo_dcr_relax_classes(Some(&context), &options, xy_of, of, 3, 2, out, null_mut(), rho, coverage)
+            azulejo_dcr_relax_classes(context.get(), &options, xy_of, of, 3, 2, out, null_mut(), rho, coverage)
         };
         assert_eq!(read_and_free(made(relax)), 3);
         let mut set = defaults(azulejo_plane_set_init);
         (set.positions, set.count, set.boundary) = (xy.as_ptr(), 3, AZULEJO_BOUNDARY_BOUNDED);
         for figure in [azulejo_plane_smallest_distance, azulejo_plane_covering_radius] {
-            assert!(made(|out| figure(Some(&context), &set, out)) > 0.0);
+            assert!(value(|out| figure(context.get(), &set, out)) > 0.0);
         }
         let mut report = defaults(azulejo_plane_report_init);
         report.struct_size = std::mem::offset_of!(azulejo_plane_report, smallest_distance) as u32;
-        assert_eq!(azulejo_plane_measure(Some(&context), &set, &mut report), AZULEJO_OK);
+        assert_eq!(azulejo_plane_measure(context.get(), &set, &mut report), AZULEJO_OK);
         assert_eq!((report.count, report.smallest_distance), (3, 0.0));
-        assert!(made(|out| azulejo_space_smallest_distance(Some(&context), xy.as_ptr(), 2, out)) > 0.0);
+        assert!(value(|out| azulejo_space_smallest_distance(context.get(), xy.as_ptr(), 2, out)) > 0.0);
         let mesh = mesh();
         let uncovered =
-            |out: Out<_>| azulejo_mesh_uncovered_fraction(Some(&context), Some(&mesh), xy.as_ptr(), 2, 9.0, 3, 1, out);
-        assert_eq!(made(uncovered), 0.0);
-        azulejo_mesh_free(Some(mesh));
+            |out: Out<_>| azulejo_mesh_uncovered_fraction(context.get(), mesh.get(), xy.as_ptr(), 2, 9.0, 3, 1, out);
+        assert_eq!(value(uncovered), 0.0);
+        drop(mesh);
     }
-    azulejo_context_free(Some(context));
+    drop(context);
 }
 
 #[test]
@@ -351,21 +396,24 @@ fn refusals() {
     let mut out = MaybeUninit::uninit();
     // SAFETY: nothing is read where a pointer is NULL or a size is wrong.
     unsafe {
-        assert_eq!(azulejo_kdrt_sample(None, null(), Some(&mut out), null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert_eq!(azulejo_kdrt_sample(null(), null(), out.as_mut_ptr(), null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
         assert!(last_error().contains("context"));
         let mut mesh = MaybeUninit::uninit();
-        let refused = azulejo_mesh_create(null(), 3, 12, null(), 1, Some(&mut mesh));
+        let refused = azulejo_mesh_create(null(), 3, 12, null(), 1, mesh.as_mut_ptr());
         assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
-        assert_eq!(azulejo_mesh_load(null(), Some(&mut mesh)), AZULEJO_ERROR_INVALID_ARGUMENT);
-        assert_eq!(azulejo_psp_fill(None, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert_eq!(azulejo_mesh_load(null(), mesh.as_mut_ptr()), AZULEJO_ERROR_INVALID_ARGUMENT);
+        assert_eq!(azulejo_psp_fill(null_mut(), null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
         // A struct that ends where it says, in memory that ends there, too.
         let mut short = [0u32; 4];
         short[0] = 16;
         let context = context();
-        assert!(azulejo_kdrt_sample(Some(&context), short.as_ptr().cast(), Some(&mut out), null_mut()) < 0);
-        azulejo_context_free(Some(context));
+        assert!(azulejo_kdrt_sample(context.get(), short.as_ptr().cast(), out.as_mut_ptr(), null_mut()) < 0);
+        drop(context);
     }
-    azulejo_points_free(None);
-    azulejo_mesh_free(None);
+    // SAFETY: NULL is none.
+    unsafe {
+        azulejo_points_free(null_mut());
+        azulejo_mesh_free(null_mut());
+    }
     assert!(azulejo_version() > 0 && azulejo_has_embree() == 1);
 }

@@ -123,7 +123,6 @@ impl<const AXES: usize> Pages<AXES> {
     /// sample that covers any of it lies in the ball of radius `reach` around its centre, or overlaps it.
     #[inline(always)]
     pub fn open_parts(&self, corners: &[DVec3; 3], halves: &[f64; 3], reach: f32, normal: [f32; 3], open: u16) -> u16 {
-        let corners = corners.map(|corner| corner.to_array().map(Apart));
         run(self.level, OpenSixteenths { grid: self, corners, halves, reach, normal: &normal, open })
     }
 
@@ -208,18 +207,12 @@ fn place<const AXES: usize>(sample: &[f32; AXES]) -> Place {
 /// The cells and the tests of their pages are one function, in which the corners stay in registers.
 struct OpenSixteenths<'a, const AXES: usize> {
     grid: &'a Pages<AXES>,
-    corners: [[Apart; 3]; 3],
+    corners: &'a [DVec3; 3],
     halves: &'a [f64; 3],
     reach: f32,
     normal: &'a [f32; 3],
     open: u16,
 }
-
-/// A number with a gap before the next. Without gaps compilers load several numbers at once, and a load across fresh
-/// stores waits until all of them are in the cache.
-#[derive(Clone, Copy)]
-#[repr(align(16))]
-struct Apart(f64);
 
 impl<const AXES: usize> Work for OpenSixteenths<'_, AXES> {
     type Out = u16;
@@ -227,11 +220,10 @@ impl<const AXES: usize> Work for OpenSixteenths<'_, AXES> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> u16 {
         let Self { grid, corners, halves, reach, normal, mut open } = self;
-        let corners = corners.map(|[x, y, z]| DVec3::new(x.0, y.0, z.0));
-        let cells = piercing_cells(lanes, &grid.space, &grid.cells, &corners);
+        let cells = piercing_cells(lanes, &grid.space, &grid.cells, corners);
         let mut numbers = [0; HALF];
         lanes.store_longs(cells, &mut numbers);
-        let part = Part::<AXES>::new(corners, *halves, reach);
+        let part = Part::<AXES>::new(*corners, *halves, reach);
         let (s, t) = (lanes.load(&CORNERS[0]), lanes.load(&CORNERS[1]));
         let (mut corners, mut axis) = ([lanes.splat(0.0); AXES], 0);
         while axis < AXES {

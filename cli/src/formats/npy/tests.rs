@@ -57,6 +57,7 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         ranks: vec![f32::INFINITY, 0.5],
         classes: vec![1, 0],
         radii: Vec::new(),
+        ids: Vec::new(),
     };
     let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii };
     for radii in [None, Some(&[0.5, 2.0][..])] {
