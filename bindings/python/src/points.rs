@@ -75,6 +75,7 @@ impl Points {
             ranks,
             classes,
             radii,
+            ids: _, // of sets that are edited, which Python does not have
         } = samples;
         let has_normals = !interpolated_normals.is_empty();
         Ok(Self {
