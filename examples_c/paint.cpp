@@ -105,8 +105,7 @@ int paint(const char *path, std::size_t samples, int strokes) {
     const auto painted = set.points();
     const bool is_same = scene.is(painted);
     const double smallest = azulejo::space_smallest_distance(context, painted);
-    const double tolerance = 1e-5 * options.radius;
-    const auto coverage = azulejo::mesh_coverage(context, mesh, painted, options.radius + tolerance);
+    const auto coverage = azulejo::mesh_coverage(context, mesh, painted, options.radius);
     std::printf("the scene is the set: %s; smallest distance %.6f radii; gaps %llu\n", is_same ? "yes" : "no",
                 smallest / options.radius, static_cast<unsigned long long>(coverage.gaps));
     return is_same && smallest >= options.radius && coverage.gaps == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -1085,7 +1085,7 @@ typedef struct azulejo_coverage_report {
     uint32_t reserved;
     /// The covering radius, in the units of the domain or mesh; infinite for no sample.
     double covering_radius;
-    /// The number of gaps; 0 if the set is maximal for the radius.
+    /// The number of gaps: 0 if the set is maximal for the radius, up to the rounding of floats.
     uint64_t gaps;
 } azulejo_coverage_report;
 
@@ -2584,8 +2584,9 @@ azulejo_status azulejo_coverage_report_init(struct azulejo_coverage_report *repo
                                             size_t struct_size);
 
 /// Counts the gaps that points of the plane leave: the connected parts of the domain, or of the
-/// torus, that are farther than a radius from all points. With no gap the set is maximal for the
-/// radius.
+/// torus, that are farther than a radius from all points, by more than 6 times the spacing of
+/// floats at the largest coordinate of the domain. With no gap the set is maximal for the radius,
+/// as "Terms" has it, and all maximal sets of this library have none.
 ///
 /// set: the points.
 ///
@@ -2604,8 +2605,10 @@ azulejo_status azulejo_plane_coverage(const struct azulejo_context *context,
                                       struct azulejo_coverage_report *out);
 
 /// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
-/// farther than a radius from all samples, each within half of the radius of another place of its
-/// group. With no gap the set is maximal for the radius.
+/// farther than a radius from all samples, by more than 6 times the spacing of floats at the
+/// largest coordinate of the mesh, each within half of the radius of another place of its group.
+/// With no gap the set is maximal for the radius, as "Terms" has it, and all maximal sets of this
+/// library have none.
 ///
 /// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
 ///

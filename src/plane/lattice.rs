@@ -217,7 +217,7 @@ pub(crate) fn estimate([width, height]: [f64; 2], radius: f64) -> Result<f64> {
 }
 
 /// The spacing of floats at the largest of the coordinates: a power of two whose multiples up to there are `f32`.
-fn float_spacing<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
+pub fn float_spacing<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
     let largest = coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()));
     // A float has 24 bits of mantissa; the finest is 2^-149.
     let mut exponent = -149 + 24;

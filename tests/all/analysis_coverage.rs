@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use azulejo::analysis::coverage::{coverage_2d, covering_radius_2d, surface_coverage, surface_covering_radius};
 use azulejo::mesh::Mesh;
-use azulejo::{Boundary, Context, Domain, Error, maximal, psp};
+use azulejo::{Boundary, Context, Domain, Error, kdrt, maximal, psp};
 use proptest::prelude::*;
 
+use crate::common::hard_domains;
 use crate::common::meshes::{self, Soup};
 use crate::common::sets::{distance, random_points, unit_square};
 
@@ -221,4 +222,44 @@ fn sets_without_samples_and_bad_arguments_have_answers() {
     assert!(matches!(coverage(&infinite, 1.0), Err(Error::InvalidArgument { argument: "positions", .. })));
     // A surface of ten trillion gaps.
     assert!(matches!(coverage(&[[0.0; 3]], 1e-7), Err(Error::TooLarge { argument: "radius", .. })));
+}
+
+/// The library's own sets, at their own radius, wherever coordinates are large beside it: none has a gap, and without
+/// one of their samples each has.
+#[test]
+fn maximal_sets_have_no_gap_and_have_one_without_a_sample() {
+    let context = context();
+    for (number, domain) in BOUNDARIES.into_iter().flat_map(hard_domains).enumerate() {
+        let [width, height] = domain.extent();
+        let radius = (width * height).sqrt() / 12.0;
+        let options = kdrt::Options::new(radius).domain(domain).seed(number as u64);
+        let Ok(points) = kdrt::sample(&context, &options, None) else { continue };
+        let mut positions = points.positions;
+        assert_eq!(gaps(&domain, &positions, radius), 0, "{domain:?}");
+        positions.swap_remove(number % positions.len());
+        assert!(gaps(&domain, &positions, radius) > 0, "{domain:?}");
+    }
+    let torus = || meshes::fine_torus(40, 20);
+    for (number, (positions, triangles)) in [
+        torus(),
+        meshes::placed(torus(), 1e-3, 7.0),
+        meshes::placed(torus(), 1e-15, 0.0),
+        meshes::placed(torus(), 1e15, 0.0),
+        meshes::placed(torus(), 1.0, -3000.0),
+        meshes::needles(1e-4),
+        meshes::random_soup(3, 40),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+        let radius = (mesh.area() / 400.0).sqrt();
+        let options = psp::Options::new(radius).seed(number as u64);
+        let (points, _) = psp::sample(&context, &mesh, &options, None).unwrap();
+        let mut positions = points.positions;
+        let counted = |positions: &[[f32; 3]]| surface_coverage(&context, &mesh, positions, radius, None).unwrap().gaps;
+        assert_eq!(counted(&positions), 0, "mesh {number}");
+        positions.swap_remove(number % positions.len());
+        assert!(counted(&positions) > 0, "mesh {number}");
+    }
 }

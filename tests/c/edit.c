@@ -59,7 +59,7 @@ static int is_maximal(const azulejo_points *points, double radius) {
     ACCEPTED(azulejo_coverage_report_init(&coverage, sizeof coverage));
     ACCEPTED(azulejo_space_smallest_distance(one, azulejo_points_positions(points), azulejo_points_count(points), &smallest));
     ACCEPTED(azulejo_mesh_coverage(one, cube, azulejo_points_positions(points), azulejo_points_count(points),
-                                   radius * (1 + 1e-5), &coverage));
+                                   radius, &coverage));
     return smallest >= radius && coverage.gaps == 0;
 }
 

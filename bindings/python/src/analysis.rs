@@ -98,7 +98,7 @@ pub(crate) fn space_smallest_distance(
 pub(crate) struct CoverageReport {
     /// The distance of the place that is farthest from all samples.
     covering_radius: f64,
-    /// The number of gaps; 0 for a maximal set.
+    /// The number of gaps: 0 for a set that is maximal, up to the rounding of floats.
     gaps: usize,
 }
 
@@ -109,7 +109,7 @@ impl From<Coverage> for CoverageReport {
 }
 
 /// Counts the gaps that points of the plane leave: the connected parts of the domain that are farther than a radius from
-/// all points.
+/// all points, by more than 6 float spacings at its largest coordinate.
 ///
 /// radius: above 0, in the units of the domain. The others are those of plane_smallest_distance.
 ///
@@ -135,7 +135,8 @@ pub(crate) fn plane_coverage(
     Ok(coverage.into())
 }
 
-/// Counts the gaps that samples leave on a mesh, by straight distance, and finds the covering radius.
+/// Counts the gaps that samples leave on a mesh, by straight distance and beyond 6 float spacings at its largest
+/// coordinate, and finds the covering radius.
 ///
 /// mesh: a Mesh. positions: the samples, float32, shape (n, 3). radius: above 0, in the units of the mesh.
 /// threads, progress: as in plane_smallest_distance.

@@ -144,7 +144,7 @@ pub struct azulejo_coverage_report {
     pub reserved: u32,
     /// The covering radius, in the units of the domain or mesh; infinite for no sample.
     pub covering_radius: f64,
-    /// The number of gaps; 0 if the set is maximal for the radius.
+    /// The number of gaps: 0 if the set is maximal for the radius, up to the rounding of floats.
     pub gaps: u64,
 }
 
@@ -169,8 +169,9 @@ pub unsafe extern "C" fn azulejo_coverage_report_init(
 }
 
 /// Counts the gaps that points of the plane leave: the connected parts of the domain, or of the
-/// torus, that are farther than a radius from all points. With no gap the set is maximal for the
-/// radius.
+/// torus, that are farther than a radius from all points, by more than 6 times the spacing of
+/// floats at the largest coordinate of the domain. With no gap the set is maximal for the radius,
+/// as "Terms" has it, and all maximal sets of this library have none.
 ///
 /// set: the points.
 ///
@@ -201,8 +202,10 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 }
 
 /// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
-/// farther than a radius from all samples, each within half of the radius of another place of its
-/// group. With no gap the set is maximal for the radius.
+/// farther than a radius from all samples, by more than 6 times the spacing of floats at the
+/// largest coordinate of the mesh, each within half of the radius of another place of its group.
+/// With no gap the set is maximal for the radius, as "Terms" has it, and all maximal sets of this
+/// library have none.
 ///
 /// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
 ///

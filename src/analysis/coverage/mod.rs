@@ -12,7 +12,9 @@ use crate::index::{Grid2, Grid3, PointTree};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::math::{distance_squared, hypot};
 use crate::mesh::Mesh;
+use crate::plane::lattice::float_spacing;
 use crate::points::{Boundary, Domain};
+use crate::psp::TOLERANCE;
 
 pub use surface::{surface_coverage, surface_covering_radius};
 
@@ -28,12 +30,15 @@ const TASK: usize = 512;
 pub struct Coverage {
     /// The covering radius: the worst distance of a place from the samples.
     pub farthest: f64,
-    /// The number of gaps; 0 for a maximal set.
+    /// The number of gaps: 0 for a set that is maximal up to the rounding that samplers are allowed
+    /// ([`TOLERANCE`](crate::psp::TOLERANCE)).
     pub gaps: usize,
 }
 
 /// The coverage of the domain of a set in the plane by disks of `radius`. A *gap* is a connected part of the domain, or
-/// of the torus, that is farther than `radius` from all points; the whole domain is one for an empty set.
+/// of the torus, that is farther than `radius` from all points, by more than [`TOLERANCE`](crate::psp::TOLERANCE) float
+/// spacings at the largest coordinate of the domain: the rounding of positions can leave less than that uncovered. The
+/// whole domain is one for an empty set.
 ///
 /// Gaps are counted by the Voronoi diagram, however small they are; those shallower than 1e-6 of the mean spacing may
 /// be missed, unless they are all there is. Takes O(n log n).
@@ -52,10 +57,11 @@ pub fn coverage_2d(
     domain.check_set(points)?;
     context.run(progress, |job| {
         let farthest = covering_radius(&job.part(0.0, 0.5), domain, points)?;
+        let reach = radius + TOLERANCE * float_spacing(domain.min.iter().chain(&domain.max));
         let gaps = match points {
-            _ if farthest <= radius => 0,
+            _ if farthest <= reach => 0,
             [] => 1,
-            _ => gaps::count(&job.part(0.5, 1.0), domain, points, radius)?.max(1),
+            _ => gaps::count(&job.part(0.5, 1.0), domain, points, reach)?.max(1),
         };
         Ok(Coverage { farthest, gaps })
     })

@@ -13,6 +13,7 @@ use crate::index::PointTree;
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::math::distance_squared;
 use crate::mesh::Mesh;
+use crate::psp::TOLERANCE;
 
 /// Triangles are cut before work on them is shared, until none has more than this share of the area.
 const SHARE: f64 = 1.0 / 2048.0;
@@ -55,9 +56,10 @@ pub fn surface_covering_radius(
 
 /// The coverage of a mesh by disks of `radius` around samples, by straight distance.
 ///
-/// A *gap* here is a group of uncovered places in which each is within half of the radius of another one, so that
-/// hardly more than a sample is missing in a small one: a connected part of the uncovered surface, or several that are
-/// this near to each other. Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap
+/// Uncovered is what is farther than `radius` from all samples, by more than [`TOLERANCE`] float spacings at the largest
+/// coordinate of the mesh: the rounding of positions can leave less than that uncovered. A *gap* here is a group of
+/// uncovered places in which each is within half of the radius of another one, so that hardly more than a sample is
+/// missing in a small one: a connected part of the uncovered surface, or several that are this near to each other. Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap
 /// deeper than a millionth of the radius is found, however narrow.
 ///
 /// Takes what [`surface_covering_radius`] takes, and about 100 fragments for each square of the radius that is
@@ -80,10 +82,11 @@ pub fn surface_coverage(
         let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
         let fragments = TrianglePart::of(mesh);
         let farthest = farthest(&job.part(0.1, 0.6), &tree, &fragments)?;
-        if farthest <= radius {
+        let reach = radius + TOLERANCE * mesh.float_spacing();
+        if farthest <= reach {
             return Ok(Coverage { farthest, gaps: 0 });
         }
-        let uncovered = gather(&job.part(0.6, 0.8), &tree, &fragments, radius)?;
+        let uncovered = gather(&job.part(0.6, 0.8), &tree, &fragments, reach)?;
         let gaps = count(&job.part(0.8, 1.0), &uncovered, LINK * radius)?.max(1);
         Ok(Coverage { farthest, gaps })
     })
