@@ -31,12 +31,12 @@ pub struct Coverage {
     /// The covering radius: the worst distance of a place from the samples.
     pub farthest: f64,
     /// The number of gaps: 0 for a set that is maximal up to the rounding that samplers are allowed
-    /// ([`TOLERANCE`](crate::psp::TOLERANCE)).
+    /// ([`TOLERANCE`]).
     pub gaps: usize,
 }
 
 /// The coverage of the domain of a set in the plane by disks of `radius`. A *gap* is a connected part of the domain, or
-/// of the torus, that is farther than `radius` from all points, by more than [`TOLERANCE`](crate::psp::TOLERANCE) float
+/// of the torus, that is farther than `radius` from all points, by more than [`TOLERANCE`] float
 /// spacings at the largest coordinate of the domain: the rounding of positions can leave less than that uncovered. The
 /// whole domain is one for an empty set.
 ///
