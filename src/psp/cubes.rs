@@ -34,9 +34,12 @@ impl Cube {
     }
 
     /// The cube and all that touch it, in fixed order.
-    pub fn around(self) -> impl Iterator<Item = Cube> {
+    pub fn around(self) -> [Cube; 27] {
         let [x, y, z] = self.0;
-        (-1..=1).flat_map(move |k| (-1..=1).flat_map(move |j| (-1..=1).map(move |i| Cube([x + i, y + j, z + k]))))
+        std::array::from_fn(|number| {
+            let number = number as i32;
+            Cube([x + number % 3 - 1, y + number / 3 % 3 - 1, z + number / 9 - 1])
+        })
     }
 }
 
@@ -174,7 +177,7 @@ impl<C: Cubes> Growing<C> {
     pub fn around(&self, cube: impl Into<OctaveCube>) -> impl Iterator<Item = &C::Sample> {
         let OctaveCube { octave, cube } = cube.into();
         let cubes = self.octaves.get(&octave).into_iter();
-        let runs = cubes.flat_map(move |cubes| cube.around().filter_map(|cube| cubes.get(&cube)).flatten());
+        let runs = cubes.flat_map(move |cubes| cube.around().into_iter().filter_map(|cube| cubes.get(&cube)).flatten());
         runs.flat_map(|run| &self.samples[run.start as usize..run.end as usize])
     }
 

@@ -108,7 +108,8 @@ impl GivenSamples {
 
     /// The given samples of the same radius in a cube and in the cubes that touch it.
     pub fn alike_around(&self, cube: Cube) -> impl Iterator<Item = [f32; 3]> {
-        cube.around().filter_map(|cube| self.cubes.get(&cube)).flat_map(|&number| self.alike.bin(number)).copied()
+        let numbers = cube.around().into_iter().filter_map(|cube| self.cubes.get(&cube));
+        numbers.flat_map(|&number| self.alike.bin(number)).copied()
     }
 }
 
