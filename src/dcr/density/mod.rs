@@ -298,8 +298,8 @@ impl Relaxation for DensityRelaxation {
     /// Without any step, the points are those with which the set began.
     fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
         if iterations == 0 {
-            let start = self.order.start().to_vec();
-            self.restart(&start);
+            let given = self.order.given().to_vec();
+            self.restart(&given);
         }
         Ok(())
     }

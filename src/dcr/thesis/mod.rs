@@ -175,6 +175,8 @@ pub struct ThesisRelaxation {
     frame: Frame,
     /// The user's index of each particle.
     order: Vec<u32>,
+    /// The positions of the particles before degenerate arrangements are parted.
+    start: Vec<DVec2>,
     particles: Vec<Particle>,
     /// The thesis's test, if it is the one that ends the steps.
     variance: Option<Variance>,
@@ -184,16 +186,19 @@ impl ThesisRelaxation {
     /// The points before the first step.
     pub fn new(domain: Domain, neighbourhood: Neighbourhood, thesis: &Thesis, seed: u64, points: &[[f32; 2]]) -> Self {
         let frame = Frame::new(domain, points.len());
-        let mut positions = frame.enter(points);
+        let entered = frame.enter(points);
+        let mut positions = entered.clone();
         frame.part(&mut positions, seed);
         let order = along_strips(&positions);
-        let positions: Vec<_> = order.iter().map(|&point| positions[point as usize]).collect();
+        let in_order = |positions: &[DVec2]| order.iter().map(|&point| positions[point as usize]).collect::<Vec<_>>();
+        let (start, positions) = (in_order(&entered), in_order(&positions));
         Self {
             thesis: *thesis,
             forces: Forces::new(neighbourhood, thesis, seed),
             neighbourhood,
             frame,
             order,
+            start,
             particles: positions.iter().copied().map(Particle::new).collect(),
             variance: (thesis.convergence == Convergence::Variance).then(Variance::default),
         }
@@ -258,6 +263,14 @@ impl Relaxation for ThesisRelaxation {
         }
         self.particles = moved;
         self.forces.step *= self.thesis.decay;
+        Ok(())
+    }
+
+    /// Without a step the points are returned as they were given, and so they are measured.
+    fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
+        if iterations == 0 {
+            self.particles = self.start.iter().copied().map(Particle::new).collect();
+        }
         Ok(())
     }
 

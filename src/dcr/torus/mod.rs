@@ -92,10 +92,14 @@ impl Torus {
         }
     }
 
+    /// The points of a domain on the torus.
+    fn given(&self, points: &[[f32; 2]]) -> Vec<TorusPoint> {
+        self.frame.enter(points).into_iter().map(|position| self.place(position)).collect()
+    }
+
     /// The points of a domain on the torus, parted so that no two coincide and not all lie on one line.
     pub fn enter(&self, points: &[[f32; 2]], seed: u64) -> Vec<TorusPoint> {
-        let entered = self.frame.enter(points).into_iter();
-        self.parted(&entered.map(|position| self.place(position)).collect::<Vec<_>>(), seed)
+        self.parted(&self.given(points), seed)
     }
 
     /// Points of the torus, parted so that no two coincide and not all lie on one line.
@@ -216,16 +220,19 @@ pub fn nudge(point: u32) -> DVec2 {
 pub struct CurveOrder {
     /// The user's index of each point.
     order: Vec<u32>,
+    /// The positions that were given.
+    given: Vec<TorusPoint>,
     start: Vec<TorusPoint>,
 }
 
 impl CurveOrder {
     /// Orders points of the domain. Those that coincide are parted, keyed by the seed.
     pub fn new(torus: &Torus, points: &[[f32; 2]], seed: u64) -> Self {
-        let entered = torus.enter(points, seed);
-        let order = order_along_curve(&entered);
-        let start = order.iter().map(|&point| entered[point as usize]).collect();
-        Self { order, start }
+        let given = torus.given(points);
+        let parted = torus.parted(&given, seed);
+        let order = order_along_curve(&parted);
+        let at = |all: &[TorusPoint]| order.iter().map(|&point| all[point as usize]).collect();
+        Self { given: at(&given), start: at(&parted), order }
     }
 
     /// The order after the points have been moved to `places` before the first step, and `places` in that order.
@@ -233,7 +240,7 @@ impl CurveOrder {
         let order = order_along_curve(places);
         let of = |all: &[u32]| order.iter().map(|&point| all[point as usize]).collect();
         let at = |all: &[TorusPoint]| order.iter().map(|&point| all[point as usize]).collect();
-        (Self { order: of(&self.order), start: at(&self.start) }, at(places))
+        (Self { order: of(&self.order), given: at(&self.given), start: at(&self.start) }, at(places))
     }
 
     /// The number of points.
@@ -244,6 +251,11 @@ impl CurveOrder {
     /// The user's index of a point.
     pub fn user(&self, point: u32) -> usize {
         self.order[point as usize] as usize
+    }
+
+    /// The positions that were given, where points may coincide.
+    pub fn given(&self) -> &[TorusPoint] {
+        &self.given
     }
 
     /// The starting positions.

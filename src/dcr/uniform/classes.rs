@@ -314,7 +314,7 @@ impl Relaxation for ClassRelaxation {
 
     fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
         if iterations == 0 {
-            self.places = self.order.start().to_vec();
+            self.places = self.order.given().to_vec();
         }
         Ok(())
     }

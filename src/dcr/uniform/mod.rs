@@ -260,7 +260,7 @@ impl Relaxation for UniformRelaxation {
 
     fn finish(&mut self, job: &Job, iterations: u32) -> Result<()> {
         if iterations == 0 {
-            self.state.places = self.torus.with_images(self.order.start());
+            self.state.places = self.torus.with_images(self.order.given());
             self.mesh = None;
         }
         if self.fewest == usize::MAX {
