@@ -86,7 +86,7 @@ fn whole_calls(domain: Domain, contexts: &[(&str, Context)]) {
             let start = Instant::now();
             let (_, report) = relax(context, &Options::new(domain, neighbourhood), &points, None).unwrap();
             let rate = points.len() as f64 / start.elapsed().as_secs_f64();
-            let (steps, rho, cover) = (report.iterations, report.rho, report.coverage);
+            let (steps, rho, cover) = (report.iterations, report.rho, report.relative_covering_radius);
             println!("momentum, {name:<18} {threads:>9} {rate:>12.0} {steps:>7} {rho:>6.3} {cover:>6.3}");
         }
     }
@@ -128,7 +128,7 @@ fn any_start(context: &Context) {
                 let name = format!("{name}, {} by {}", max[0], max[1]);
                 println!(
                     "{name:<28} {count:>9} {seconds:>12.4} {ratio:>7.2} {:>6.3} {:>6.3}",
-                    report.rho, report.coverage
+                    report.rho, report.relative_covering_radius
                 );
             }
         }

@@ -13,9 +13,9 @@
  *   azulejo_kdrt_options_init(&options, sizeof options);
  *   options.radius = 0.01;
  *   if (azulejo_kdrt_sample(context, &options, &points, NULL) == AZULEJO_OK) {
- *       const float *xy = azulejo_points_positions(points);
+ *       const float *positions = azulejo_points_positions(points);
  *       size_t count = azulejo_points_count(points);
- *       ... xy[2 * i] and xy[2 * i + 1] for i from 0 to count - 1 ...
+ *       ... positions[2 * i] and positions[2 * i + 1] for i from 0 to count - 1 ...
  *       azulejo_points_free(points);
  *   }
  *   azulejo_context_free(context);
@@ -73,7 +73,14 @@
  *   struct_size out of range, a non-zero field beyond the known ones, an unknown constant, a flag
  *   other than 0 and 1, and an option that its text excludes from the call are refused. A reserved
  *   field must be 0 in options and is 0 in reports. The options of azulejo_X and azulejo_X_verb
- *   are azulejo_X_options, the report azulejo_X_report.
+ *   are azulejo_X_options, the report azulejo_X_report. Structs that a call takes an array of have
+ *   no struct_size; the call takes their size, and the same holds.
+ *
+ * Types. Attributes that the host has for each vertex, pixel or sample are float: positions,
+ *   normals, barycentrics, radii of vertices, densities, ranks. Distances by which conflicts are
+ *   judged are double: radius, clearances, radii of samples and classes, corners of the domain, and
+ *   all figures of reports. Constants, flags and what callbacks return are uint32_t, sizes and
+ *   counts of arrays size_t. Results come last: `out`, then `report`.
  *
  * Progress. A call with a context calls a progress callback on the thread that made the call: the
  *   one in its options or, if that is NULL, the one of the context (azulejo_context_watch). It
@@ -340,14 +347,14 @@ typedef int32_t azulejo_status;
 /// done: the fraction of the call that is done, from 0 to 1; it never decreases.
 ///
 /// Returns 0 to continue, any other value to cancel the call.
-typedef int32_t (*azulejo_progress_fn)(void *user, double done);
+typedef uint32_t (*azulejo_progress_fn)(void *user, double done);
 
 /// Points of the plane and their domain: the input of the calls that measure them.
 typedef struct azulejo_plane_set {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    int32_t boundary;
+    uint32_t boundary;
     /// The points, x y each, with domain_min <= x < domain_max on both axes. Default NULL: none.
     const float *positions;
     /// The number of points; default 0.
@@ -391,7 +398,7 @@ typedef struct azulejo_kdrt_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    int32_t boundary;
+    uint32_t boundary;
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
     /// there is a `count`, from which the radius follows, and in calls with classes, which have
@@ -415,10 +422,9 @@ typedef struct azulejo_kdrt_options {
     /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
     /// streams and planes that are kept, which are made by radius.
     size_t count;
-    /// 1: azulejo_kdrt_sample measures the `coverage` in its report, which takes much longer than
-    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, and in
-    /// other calls.
-    uint32_t measure_coverage;
+    /// 1: azulejo_kdrt_sample measures the `covering_radius` in its report, which takes much longer
+    /// than the sampling. Default 0. Must be 0 with the report NULL, and in other calls.
+    uint32_t measure_covering_radius;
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well. Must be any for streams, which come
     /// place by place.
@@ -446,11 +452,12 @@ typedef struct azulejo_kdrt_options {
     size_t given_count;
 } azulejo_kdrt_options;
 
-/// The report of azulejo_kdrt_sample.
+/// The report of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
+/// azulejo_maximal_sample.
 typedef struct azulejo_kdrt_report {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
-    /// 1 if the set is maximal for `radius`, else 0.
+    /// 1 if the set, of which a window has a part, is maximal for `radius`, else 0.
     uint32_t is_maximal;
     /// The number of samples; the `count` of the options if there is one.
     uint64_t samples;
@@ -458,9 +465,9 @@ typedef struct azulejo_kdrt_report {
     /// No two samples are closer.
     double radius;
     /// The covering radius as azulejo_plane_covering_radius measures it, in the units of the
-    /// domain, if the options have `measure_coverage`; else -1.
-    double coverage;
-    /// Wall time in seconds, without the measuring of `coverage`.
+    /// domain, if the options have `measure_covering_radius`; else -1.
+    double covering_radius;
+    /// Wall time in seconds, without the measuring of `covering_radius`.
     double seconds;
 } azulejo_kdrt_report;
 
@@ -468,17 +475,18 @@ typedef struct azulejo_kdrt_report {
 ///
 /// user: the `user` of the call.
 ///
-/// xy: the samples, x y each, valid until the callback returns; `count` of them, at least one.
+/// positions: the samples, x y each, valid until the callback returns; `count` of them, at least
+/// one.
 ///
 /// Returns 0 to continue, any other value to cancel the call.
-typedef int32_t (*azulejo_kdrt_visit_fn)(void *user, const float *xy, size_t count);
+typedef uint32_t (*azulejo_kdrt_visit_fn)(void *user, const float *positions, size_t count);
 
 /// Options of azulejo_maximal_sample.
 typedef struct azulejo_maximal_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    int32_t boundary;
+    uint32_t boundary;
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default.
     double radius;
@@ -500,7 +508,7 @@ typedef struct azulejo_kdrt_merge_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    int32_t boundary;
+    uint32_t boundary;
     /// The smallest distance between two samples, that of the pieces, in the units of the domain:
     /// above 0, and at least 64 times the spacing of floats at the largest coordinate. It has no
     /// default.
@@ -534,11 +542,11 @@ typedef struct azulejo_kdrt_merge_report {
 } azulejo_kdrt_merge_report;
 
 /// A set of samples that was made independently, such as by azulejo_kdrt_sample on a bounded domain
-/// or by azulejo_kdrt_sample_window. It has no struct_size and never grows.
+/// or by azulejo_kdrt_sample_window.
 typedef struct azulejo_kdrt_merge_piece {
     /// The samples, x y each, with min <= x < max, no two of them closer than the radius; read
     /// during the call only. They need not be maximal. NULL if there are none.
-    const float *xy;
+    const float *positions;
     /// The number of samples.
     size_t count;
     /// The lower corner of the piece's rectangle, x y.
@@ -548,7 +556,7 @@ typedef struct azulejo_kdrt_merge_piece {
 } azulejo_kdrt_merge_piece;
 
 /// A geometry of triangles in a scene that the program has made with Embree. Embree does not report
-/// the sizes of its buffers, so the caller gives them. It has no struct_size and never grows.
+/// the sizes of its buffers, so the caller gives them.
 typedef struct azulejo_embree_geometry {
     /// Its number in the scene.
     uint32_t geometry_id;
@@ -589,10 +597,10 @@ typedef struct azulejo_psp_options {
     /// any value but the default.
     uint32_t maximal;
     /// An AZULEJO_PRIORITY_ constant; default squareness.
-    int32_t priority;
+    uint32_t priority;
     /// An AZULEJO_ENGINE_ constant; default Embree, or the rasteriser in a library without Embree
     /// (azulejo_has_embree).
-    int32_t engine;
+    uint32_t engine;
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well. The set is filled only, as by default:
     /// `iterations` above 0 and a `maximal` of 0 are refused. Must be any in azulejo_psp_create.
@@ -684,7 +692,7 @@ typedef struct azulejo_psp_report {
     /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
     /// a little more for a count. Where `radius` is not a distance, the bound of what radii are
     /// multiplied by. Else -1.
-    double coverage;
+    double covering_radius;
 } azulejo_psp_report;
 
 /// A part of space: the points that lie in a box and within a distance of a centre, the boundary
@@ -712,14 +720,15 @@ typedef struct azulejo_region {
 /// for the same position, return (see "Callbacks" at the top), and must not call the library with
 /// the same context.
 ///
-/// user: the radius_user of the options.
+/// user: the radius_function_user of the options.
 ///
 /// position: x y z of a place on the mesh; for a sample, the floats that are returned.
 ///
 /// Returns the radius in the units of the mesh, from `smallest` to `largest`.
 typedef double (*azulejo_radius_fn)(void *user, const double *position);
 
-/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius` must be set.
+/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius_function`
+/// must be set.
 typedef struct azulejo_psp_adaptive_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
@@ -728,26 +737,27 @@ typedef struct azulejo_psp_adaptive_options {
     uint32_t order;
     /// A radius for each vertex of the mesh, above 0, in its units; used during the call only. At
     /// the barycentrics u v of a sample on the triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in
-    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if `radius` is set.
+    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if
+    /// `radius_function` is set.
     const float *vertex_radii;
     /// The number of vertex_radii: that of the vertices of the mesh. Must be 0, the default, if
-    /// `radius` is set.
+    /// `radius_function` is set.
     size_t vertex_count;
     /// Gives the radius at a position. NULL, the default, if `vertex_radii` is set.
-    azulejo_radius_fn radius;
-    /// Passed to `radius`.
-    void *radius_user;
-    /// The smallest value of `radius`, above 0. Must be 0, the default, with vertex_radii.
+    azulejo_radius_fn radius_function;
+    /// Passed to `radius_function`.
+    void *radius_function_user;
+    /// The smallest value of `radius_function`, above 0. Must be 0, the default, with vertex_radii.
     double smallest;
-    /// The largest value of `radius`. Must be 0, the default, with vertex_radii.
+    /// The largest value of `radius_function`. Must be 0, the default, with vertex_radii.
     double largest;
-    /// The most by which `radius` changes per unit of distance between two places of a triangle; 0,
-    /// the default: it is constant on each triangle. Coverage is proved with it, so it must hold: a
-    /// violation that is detected makes the call fail, one that is not can leave gaps. From about 1
-    /// on the work grows with its square, and from about 30 on it may be refused as too much; for
-    /// images and other data with edges vertex_radii, which carry their own slopes, are the better
-    /// choice. At most `smallest` / 24 per spacing of floats at the largest coordinate of the mesh.
-    /// Must be 0 with vertex_radii.
+    /// The most by which `radius_function` changes per unit of distance between two places of a
+    /// triangle; 0, the default: it is constant on each triangle. Coverage is proved with it, so it
+    /// must hold: a violation that is detected makes the call fail, one that is not can leave gaps.
+    /// From about 1 on the work grows with its square, and from about 30 on it may be refused as
+    /// too much; for images and other data with edges vertex_radii, which carry their own slopes,
+    /// are the better choice. At most `smallest` / 24 per spacing of floats at the largest
+    /// coordinate of the mesh. Must be 0 with vertex_radii.
     double slope;
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
     /// that the two sides of a thin wall are sampled as if they were far apart; triangles must be
@@ -785,7 +795,7 @@ typedef struct azulejo_psp_adaptive_options {
 /// one thread, and must be thread-safe. It must give the same density for the same position, return
 /// (see "Callbacks" at the top), and must not call the library with the same context.
 ///
-/// user: the `user` of the azulejo_mesh_density.
+/// user: the `function_user` of the azulejo_mesh_density.
 ///
 /// position: x y z of a place on the mesh.
 ///
@@ -810,7 +820,7 @@ typedef struct azulejo_mesh_density {
     /// Gives the density at a position. Default NULL.
     azulejo_mesh_density_fn function;
     /// Passed to `function`.
-    void *user;
+    void *function_user;
     /// The largest value of `function`, above 0. Must be 0, the default, without a function, and
     /// with `at_vertices`.
     double largest;
@@ -860,16 +870,16 @@ typedef struct azulejo_dcr_options {
     /// The size of the struct in bytes; set by the _init function.
     uint32_t struct_size;
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    int32_t boundary;
+    uint32_t boundary;
     /// The lower corner of the domain, x y; finite; default 0 0.
     double domain_min[2];
     /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
     /// 1 1. Neither side may be longer than 2^100 times the other.
     double domain_max[2];
     /// An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
-    int32_t neighbourhood;
+    uint32_t neighbourhood;
     /// An AZULEJO_METHOD_ constant; default momentum.
-    int32_t method;
+    uint32_t method;
     /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
     /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
     /// ends earlier when the set has converged.
@@ -901,11 +911,11 @@ typedef struct azulejo_dcr_options {
     /// The number of neighbours of AZULEJO_NEIGHBOURHOOD_NEAREST; at least 1; default 6.
     uint32_t neighbours;
     /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); default activeness.
-    int32_t distribution;
+    uint32_t distribution;
     /// An AZULEJO_VISITS_ constant; default both ends.
-    int32_t visits;
+    uint32_t visits;
     /// An AZULEJO_CONVERGENCE_ constant; default motion.
-    int32_t convergence;
+    uint32_t convergence;
 } azulejo_dcr_options;
 
 /// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
@@ -915,7 +925,7 @@ typedef struct azulejo_dcr_report {
     /// The steps made.
     uint32_t iterations;
     /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    int32_t stopped;
+    uint32_t stopped;
     /// Always 0.
     uint32_t reserved;
     /// Half of the distance that points moved, root mean square, in units of d_max: over the last
@@ -929,7 +939,7 @@ typedef struct azulejo_dcr_report {
     /// 1 on a periodic domain; infinite for fewer than two points.
     double rho;
     /// The covering radius in units of d_max; infinite for no point.
-    double coverage;
+    double relative_covering_radius;
 } azulejo_dcr_report;
 
 /// Gives the density at a position.
@@ -940,7 +950,7 @@ typedef struct azulejo_dcr_report {
 /// for each place of a lattice of up to some hundred places per point: by azulejo_dcr_relax_density
 /// before its first report of progress, by azulejo_dcr_scatter after that.
 ///
-/// user: the `user` of the azulejo_density.
+/// user: the `function_user` of the azulejo_density.
 ///
 /// position: x y of a place in the domain.
 ///
@@ -966,7 +976,7 @@ typedef struct azulejo_density {
     /// Gives the density at a position. NULL, the default, if `values` is set.
     azulejo_density_fn function;
     /// Passed to `function`.
-    void *user;
+    void *function_user;
 } azulejo_density;
 
 /// Options of azulejo_dcr_surface_relax.
@@ -996,7 +1006,7 @@ typedef struct azulejo_dcr_surface_report {
     /// The steps made.
     uint32_t iterations;
     /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    int32_t stopped;
+    uint32_t stopped;
     /// Always 0.
     uint32_t reserved;
     /// Half of the distance that samples moved over the last 10 steps, root mean square, in units
@@ -1075,6 +1085,21 @@ typedef struct azulejo_thin_options {
     /// Passed to the progress callback.
     void *progress_user;
 } azulejo_thin_options;
+
+/// The report of azulejo_thin.
+typedef struct azulejo_thin_report {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// Always 0.
+    uint32_t reserved;
+    /// The number of selected points.
+    uint64_t samples;
+    /// No two selected points are closer: the radius by which they were selected, otherwise the
+    /// smallest distance of two. Infinite for less than two points.
+    double radius;
+    /// Wall time in seconds.
+    double seconds;
+} azulejo_thin_report;
 
 /// The coverage of a domain or a surface by disks of a radius: the result of
 /// azulejo_plane_coverage and azulejo_mesh_coverage.
@@ -1164,8 +1189,7 @@ typedef struct azulejo_spectrum_report {
     double peak_frequency[2];
 } azulejo_spectrum_report;
 
-/// The frequencies of about one length: a point of the radial curves. It has no struct_size and
-/// never grows.
+/// The frequencies of about one length: a point of the radial curves.
 typedef struct azulejo_annulus {
     /// The mean length of its frequencies, in units of sqrt(count / area).
     double frequency;
@@ -1207,7 +1231,7 @@ uint32_t azulejo_version(void);
 ///
 /// Embree is loaded by the first call that uses it. If the machine has none, such calls are refused
 /// with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
-int32_t azulejo_has_embree(void);
+uint32_t azulejo_has_embree(void);
 
 /// Makes a context and starts its threads.
 ///
@@ -1392,12 +1416,12 @@ azulejo_status azulejo_kdrt_report_init(struct azulejo_kdrt_report *report, size
 /// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
 /// were made again take the places of others in the order.
 ///
-/// report: what the call achieved, or NULL. It costs nothing unless `measure_coverage` is 1; then
-/// progress includes the measuring.
+/// report: what the call achieved, or NULL. It costs nothing unless `measure_covering_radius` is 1;
+/// then progress includes the measuring.
 ///
 /// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
 /// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
-/// Measuring the coverage takes O(samples * log samples).
+/// Measuring the covering radius takes O(samples * log samples).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
 /// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
@@ -1430,6 +1454,8 @@ azulejo_status azulejo_kdrt_sample(const struct azulejo_context *context,
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
+/// report: what the call achieved, or NULL.
+///
 /// O(samples in and around the window) time and memory, and in every call the making of the
 /// pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
 /// azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
@@ -1441,7 +1467,8 @@ azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
                                           const struct azulejo_kdrt_options *options,
                                           const double *window_min,
                                           const double *window_max,
-                                          struct azulejo_points **out);
+                                          struct azulejo_points **out,
+                                          struct azulejo_kdrt_report *report);
 
 /// Makes the set of azulejo_kdrt_sample and passes it to a callback part by part, in its order,
 /// instead of keeping it: for sets of any size that are written or consumed at once.
@@ -1454,6 +1481,8 @@ azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
 ///
 /// user: passed to `visit`.
 ///
+/// report: what the call achieved, or NULL.
+///
 /// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
 /// tiled is made as a whole and is one part.
 ///
@@ -1463,7 +1492,8 @@ azulejo_status azulejo_kdrt_sample_window(const struct azulejo_context *context,
 azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
                                    const struct azulejo_kdrt_options *options,
                                    azulejo_kdrt_visit_fn visit,
-                                   void *user);
+                                   void *user,
+                                   struct azulejo_kdrt_report *report);
 
 /// Makes samples of several classes in a rectangle: samples of classes i and j are at least r_ij
 /// apart, and for each class i every point of the domain is within r_ij of some sample of some
@@ -1479,8 +1509,8 @@ azulejo_status azulejo_kdrt_stream(const struct azulejo_context *context,
 /// equal give other shares than two equal ones: 1 and 0.9 give 1 and 0.68.
 ///
 /// options: `radius` must be 0, since classes have radii of their own; `count` and
-/// `measure_coverage` must be 0 and `order` any. `given_clearances`, if not NULL, has given_count
-/// rows, each with a clearance for each class; NULL: each class's own radius.
+/// `measure_covering_radius` must be 0 and `order` any. `given_clearances`, if not NULL, has
+/// given_count rows, each with a clearance for each class; NULL: each class's own radius.
 ///
 /// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
 /// order.
@@ -1587,12 +1617,15 @@ azulejo_status azulejo_maximal_options_init(struct azulejo_maximal_options *opti
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
+/// report: what the call achieved, or NULL.
+///
 /// O(samples) time and memory.
 ///
 /// Errors: as azulejo_kdrt_sample.
 azulejo_status azulejo_maximal_sample(const struct azulejo_context *context,
                                       const struct azulejo_maximal_options *options,
-                                      struct azulejo_points **out);
+                                      struct azulejo_points **out,
+                                      struct azulejo_kdrt_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
 ///
@@ -1618,6 +1651,8 @@ azulejo_status azulejo_kdrt_merge_report_init(struct azulejo_kdrt_merge_report *
 ///
 /// pieces: `piece_count` of them, in the domain; NULL if there are none.
 ///
+/// piece_size: sizeof(azulejo_kdrt_merge_piece).
+///
 /// fixed: the points that must stay, x y each, with domain_min <= x < domain_max, no two of them
 /// closer than the radius; `fixed_count` of them; NULL if there are none.
 ///
@@ -1637,6 +1672,7 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
                                   const struct azulejo_kdrt_merge_options *options,
                                   const struct azulejo_kdrt_merge_piece *pieces,
                                   size_t piece_count,
+                                  size_t piece_size,
                                   const float *fixed,
                                   size_t fixed_count,
                                   struct azulejo_points **out,
@@ -1660,6 +1696,8 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
 /// RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a size or a type is not that of the scene, the behaviour
 /// is undefined.
 ///
+/// geometry_size: sizeof(azulejo_embree_geometry).
+///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
 /// O(vertices + triangles).
@@ -1669,6 +1707,7 @@ azulejo_status azulejo_kdrt_merge(const struct azulejo_context *context,
 azulejo_status azulejo_mesh_create_from_embree(void *scene,
                                                const struct azulejo_embree_geometry *geometries,
                                                size_t geometry_count,
+                                               size_t geometry_size,
                                                struct azulejo_mesh **out);
 
 /// Makes a mesh from a copy of the caller's arrays.
@@ -1833,7 +1872,7 @@ azulejo_status azulejo_mesh_points(const struct azulejo_mesh *mesh,
                                    struct azulejo_points **out);
 
 /// 1 if the mesh carries normals besides those of its triangles, else 0; 0 for NULL.
-int32_t azulejo_mesh_has_normals(const struct azulejo_mesh *mesh);
+uint32_t azulejo_mesh_has_normals(const struct azulejo_mesh *mesh);
 
 /// The number of vertices; 0 for NULL.
 size_t azulejo_mesh_vertex_count(const struct azulejo_mesh *mesh);
@@ -1938,8 +1977,8 @@ void azulejo_psp_free(struct azulejo_psp *psp);
 /// `maximal` is 1, azulejo_psp_fill, with one progress for all.
 ///
 /// With a `count` the set has exactly so many samples: no two are closer than `radius` in the
-/// report, and every place of the surface is within `coverage` of one, in most cases less than 1.1
-/// times that radius. It takes about twice the time of a set of known radius.
+/// report, and every place of the surface is within `covering_radius` of one, in most cases less
+/// than 1.1 times that radius. It takes about twice the time of a set of known radius.
 ///
 /// In progressive order the samples are sorted coarse to fine (azulejo_points_ranks), from a single
 /// one on: the first of them, any number, are at least as far apart as their last rank, and cover
@@ -2110,7 +2149,8 @@ azulejo_status azulejo_psp_refill(struct azulejo_psp *psp,
 ///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///
-/// report: what the call did, or NULL; `rho` is 0, and `coverage` and `uncovered_after` are -1.
+/// report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after` are
+/// -1.
 ///
 /// O(surface in the region + given samples + triangles / 16); the first call on a mesh
 /// O(triangles).
@@ -2148,26 +2188,27 @@ azulejo_status azulejo_psp_adaptive_options_init(struct azulejo_psp_adaptive_opt
 /// In progressive order the samples are sorted coarse to fine. Ranks are what all radii are
 /// multiplied by: with its radii times the i-th rank the prefix of i samples is conflict-free, and
 /// with all radii times `quotient` times that rank it is maximal (see there for i below 100). Ranks
-/// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius` keep their
-/// meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) / log(quotient)
-/// levels visit all triangles and call `radius`; where radii are small beside the triangles it
-/// takes several times as long as a set in any order. Where the radius jumps, samples of the
-/// larger radius that came first leave fewer on the other side than in any order.
+/// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius_function` keep
+/// their meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) /
+/// log(quotient) levels visit all triangles and call `radius_function`; where radii are small
+/// beside the triangles it takes several times as long as a set in any order. Where the radius
+/// jumps, samples of the larger radius that came first leave fewer on the other side than in any
+/// order.
 ///
 /// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
 /// order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, or NULL; iterations, rays and hits are 0. In progressive order its
-/// `radius` is 1, as the radii are those asked for, and `coverage` as well.
+/// `radius` is 1, as the radii are those asked for, and `covering_radius` as well.
 ///
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below
 /// 64 times the spacing of floats at the largest coordinate, for a given sample out of range, with
-/// its index, and if `radius` returns a value outside `smallest` to `largest` or changes faster
-/// than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii that
-/// change so fast that finding out what is covered would take thousands of evaluations per sample;
-/// AZULEJO_ERROR_CANCELLED.
+/// its index, and if `radius_function` returns a value outside `smallest` to `largest` or changes
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii
+/// that change so fast that finding out what is covered would take thousands of evaluations per
+/// sample; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_adaptive_sample(const struct azulejo_context *context,
                                            const struct azulejo_mesh *mesh,
                                            const struct azulejo_psp_adaptive_options *options,
@@ -2239,7 +2280,7 @@ azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t
 /// is the set after the last whole step. A call that its progress callback cancels succeeds with
 /// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
-/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
 /// out: the points, in the same order, to be freed with azulejo_points_free.
 ///
@@ -2254,7 +2295,7 @@ azulejo_status azulejo_dcr_report_init(struct azulejo_dcr_report *report, size_t
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
                                  const struct azulejo_dcr_options *options,
-                                 const float *xy,
+                                 const float *positions,
                                  size_t count,
                                  struct azulejo_points **out,
                                  struct azulejo_dcr_report *report);
@@ -2272,19 +2313,19 @@ azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
 /// progress callback cancels succeeds with what there is then, and AZULEJO_STOPPED_CANCELLED in
 /// the report.
 ///
-/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
 /// classes: the class of each point, below class_count; `count` of them.
 ///
 /// class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
 ///
+/// class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
+/// `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
+/// number of points; infinite where a class has fewer than two points, or none.
+///
 /// out: the points, in the same order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, with the figures of the union, or NULL.
-///
-/// class_rho, class_coverage: class_count numbers each, or NULL: the rho and the coverage of
-/// each class, as in the report, in units of the d_max of its own number of points; infinite
-/// where a class has fewer than two points, or none.
 ///
 /// About 2.5 times the time of azulejo_dcr_relax, and O(count) memory. Source: the constraints
 /// of thesis chapter 4 for each of the sets; several classes after Wei 2010.
@@ -2292,14 +2333,14 @@ azulejo_status azulejo_dcr_relax(const struct azulejo_context *context,
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax_classes(const struct azulejo_context *context,
                                          const struct azulejo_dcr_options *options,
-                                         const float *xy,
+                                         const float *positions,
                                          const uint32_t *classes,
                                          size_t count,
                                          uint32_t class_count,
-                                         struct azulejo_points **out,
-                                         struct azulejo_dcr_report *report,
                                          double *class_rho,
-                                         double *class_coverage);
+                                         double *class_relative_covering_radius,
+                                         struct azulejo_points **out,
+                                         struct azulejo_dcr_report *report);
 
 /// Writes the defaults. `struct_size` is sizeof *density.
 ///
@@ -2347,7 +2388,7 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 ///
 /// density: the density of the points; used during the call only.
 ///
-/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
 /// out: the points after the last whole step, in the same order, to be freed with
 /// azulejo_points_free. A call that its progress callback cancels succeeds, as that of
@@ -2363,7 +2404,7 @@ azulejo_status azulejo_dcr_scatter(const struct azulejo_context *context,
 azulejo_status azulejo_dcr_relax_density(const struct azulejo_context *context,
                                          const struct azulejo_dcr_options *options,
                                          const struct azulejo_density *density,
-                                         const float *xy,
+                                         const float *positions,
                                          size_t count,
                                          struct azulejo_points **out,
                                          struct azulejo_dcr_report *report);
@@ -2462,6 +2503,11 @@ azulejo_status azulejo_dcr_remesh(const struct azulejo_context *context,
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_thin_options_init(struct azulejo_thin_options *options, size_t struct_size);
 
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_thin_report_init(struct azulejo_thin_report *report, size_t struct_size);
+
 /// Selects points of a cloud that are far from each other and near to all the others.
 ///
 /// With a radius, the selected points are at least the radius apart; without a count, every other
@@ -2473,9 +2519,11 @@ azulejo_status azulejo_thin_options_init(struct azulejo_thin_options *options, s
 /// positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
 /// coincide: by radius one of them is selected, in the progressive order they come last.
 ///
-/// dimensions: the number of coordinates of a point, 2 or 3.
+/// dimension: the number of coordinates of a point, 2 or 3.
 ///
 /// out: the selected points, to be freed with azulejo_selection_free.
+///
+/// report: what the call did, or NULL.
 ///
 /// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
 /// made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of the
@@ -2487,8 +2535,9 @@ azulejo_status azulejo_thin(const struct azulejo_context *context,
                             const struct azulejo_thin_options *options,
                             const float *positions,
                             size_t count,
-                            uint32_t dimensions,
-                            struct azulejo_selection **out);
+                            uint32_t dimension,
+                            struct azulejo_selection **out,
+                            struct azulejo_thin_report *report);
 
 /// The number of selected points; 0 for NULL.
 size_t azulejo_selection_count(const struct azulejo_selection *selection);
@@ -2716,9 +2765,9 @@ azulejo_status azulejo_spectrum_report_init(struct azulejo_spectrum_report *repo
 /// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
 /// width and 1 / height.
 ///
-/// stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that the spectra
-/// of large sets reach as far as those of small ones. For all figures, size * stride of about 13 *
-/// sqrt(count) is enough on a square.
+/// frequency_stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that
+/// the spectra of large sets reach as far as those of small ones. For all figures, size *
+/// frequency_stride of about 13 * sqrt(count) is enough on a square.
 ///
 /// out: the spectrum, to be freed with azulejo_spectrum_free.
 ///
@@ -2729,7 +2778,7 @@ azulejo_status azulejo_spectrum_report_init(struct azulejo_spectrum_report *repo
 azulejo_status azulejo_spectrum_create(const struct azulejo_context *context,
                                        const struct azulejo_plane_set *set,
                                        uint32_t size,
-                                       uint32_t stride,
+                                       uint32_t frequency_stride,
                                        struct azulejo_spectrum **out);
 
 /// Makes the mean of the spectra of sets of one kind. The noise of a single spectrum decreases with
@@ -2762,6 +2811,8 @@ const float *azulejo_spectrum_power(const struct azulejo_spectrum *spectrum);
 /// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
 /// `capacity` is 0.
 ///
+/// annulus_size: sizeof(azulejo_annulus).
+///
 /// out_count: their number, which may exceed the capacity.
 ///
 /// O(size^2) time on the calling thread.
@@ -2771,6 +2822,7 @@ azulejo_status azulejo_spectrum_radial(const struct azulejo_spectrum *spectrum,
                                        double width,
                                        struct azulejo_annulus *annuli,
                                        size_t capacity,
+                                       size_t annulus_size,
                                        size_t *out_count);
 
 /// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.

@@ -463,10 +463,10 @@ using Triple = Coordinates<3>;
 struct Domain {
     Pair min{0, 0};
     Pair max{1, 1};
-    std::int32_t boundary = AZULEJO_BOUNDARY_PERIODIC;
+    std::uint32_t boundary = AZULEJO_BOUNDARY_PERIODIC;
 
     Domain() = default;
-    Domain(Pair low, Pair high, std::int32_t boundary_kind = AZULEJO_BOUNDARY_PERIODIC)
+    Domain(Pair low, Pair high, std::uint32_t boundary_kind = AZULEJO_BOUNDARY_PERIODIC)
         : min(low), max(high), boundary(boundary_kind) {}
     /// That of the options that a set was made with.
     template <class Options, class = decltype(std::declval<const Options &>().domain_min)>
@@ -489,7 +489,7 @@ using Progress = std::function<bool(double done)>;
 
 /// Called on the calling thread with some of the samples, which are valid until it returns; returns
 /// whether to go on. See azulejo_kdrt_visit_fn.
-using KdrtVisitor = std::function<bool(Positions xy)>;
+using KdrtVisitor = std::function<bool(Positions positions)>;
 
 /// Gives the radius at a place of a mesh. Called on the library's threads, several at once; see
 /// azulejo_radius_fn.
@@ -529,7 +529,7 @@ private:
 
 /// Runs a callback where C called it: 0 to go on, 1 to stop.
 template <class Function>
-std::int32_t guarded(Function function) noexcept {
+std::uint32_t guarded(Function function) noexcept {
     try {
         return function() ? 0 : 1;
     } catch (...) {
@@ -570,7 +570,7 @@ struct Caught {
 };
 
 template <class Function>
-std::int32_t guarded(Function function) noexcept {
+std::uint32_t guarded(Function function) noexcept {
     return function() ? 0 : 1;
 }
 
@@ -586,7 +586,7 @@ struct Thrown {
 #endif
 
 /// An azulejo_progress_fn whose user is a Progress.
-inline std::int32_t tell(void *user, double done) noexcept {
+inline std::uint32_t tell(void *user, double done) noexcept {
     return guarded([&] { return (*static_cast<const Progress *>(user))(done); });
 }
 
@@ -757,12 +757,12 @@ public:
         detail::set_given(*this, positions, clearances, true);
     }
 
-    /// Sets `radius` and `radius_user`; an empty function unsets them. Copies share it as
-    /// set_progress says.
+    /// Sets `radius_function` and its user pointer; an empty function unsets them. Copies share it
+    /// as set_progress says.
     void set_radius(RadiusFunction function) {
         function_ = function ? std::make_shared<Function>(std::move(function)) : nullptr;
-        radius = function_ ? &detail::Field<3>::call : nullptr;
-        radius_user = function_ ? &function_->field : nullptr;
+        radius_function = function_ ? &detail::Field<3>::call : nullptr;
+        radius_function_user = function_ ? &function_->field : nullptr;
     }
 
 private:
@@ -860,6 +860,7 @@ struct Report : C {
 };
 
 using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
+using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
 using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
 using DcrReport = Report<azulejo_dcr_report, azulejo_dcr_report_init>;
@@ -1001,6 +1002,7 @@ public:
                                   Mesh &out) {
         return detail::make(out, [&](auto **mesh) {
             return azulejo_mesh_create_from_embree(scene, geometries.data(), geometries.size(),
+                                                   sizeof(azulejo_embree_geometry),
                                                    mesh);
         });
     }
@@ -1311,30 +1313,32 @@ inline Status try_kdrt_sample_classes(const Context &context, const KdrtOptions 
 
 /// The part of kdrt_sample's set that lies in a window; see azulejo_kdrt_sample_window.
 inline Status try_kdrt_sample_window(const Context &context, const KdrtOptions &options,
-                                     const Pair &window_min, const Pair &window_max, Points &out) {
+                                     const Pair &window_min, const Pair &window_max, Points &out,
+                                     KdrtReport *report = nullptr) {
     return detail::make(out, [&](auto **points) {
         return azulejo_kdrt_sample_window(context.get(), &options, window_min.data(),
-                                          window_max.data(), points);
+                                          window_max.data(), points, report);
     });
 }
 
 /// Hands out the samples of kdrt_sample part by part; see azulejo_kdrt_stream.
 inline Status try_kdrt_stream(const Context &context, const KdrtOptions &options,
-                              const KdrtVisitor &visit) {
-    const azulejo_kdrt_visit_fn call = [](void *user, const float *xy, std::size_t count) {
-        return detail::guarded(
-            [&] { return (*static_cast<const KdrtVisitor *>(user))(Positions(xy, count, 2)); });
+                              const KdrtVisitor &visit, KdrtReport *report = nullptr) {
+    const azulejo_kdrt_visit_fn call = [](void *user, const float *positions, std::size_t count) {
+        return detail::guarded([&] {
+            return (*static_cast<const KdrtVisitor *>(user))(Positions(positions, count, 2));
+        });
     };
     return detail::run([&] {
         return azulejo_kdrt_stream(context.get(), &options, visit ? call : nullptr,
-                                   const_cast<KdrtVisitor *>(&visit));
+                                   const_cast<KdrtVisitor *>(&visit), report);
     });
 }
 
 /// A set of samples with its rectangle, such as {points, {0, 0}, {1, 1}}; see
 /// azulejo_kdrt_merge_piece. The samples stay the caller's.
 struct KdrtMergePiece {
-    PlanePoints xy;
+    PlanePoints positions;
     Pair min;
     Pair max;
 };
@@ -1345,14 +1349,15 @@ inline Status try_kdrt_merge(const Context &context, const KdrtMergeOptions &opt
                              Span<const KdrtMergePiece> pieces, const PlanePoints &fixed,
                              Points &out, KdrtMergeReport *report = nullptr) {
     std::vector<azulejo_kdrt_merge_piece> c_pieces;
-    for (const auto &[xy, min, max] : pieces) {
-        if (Status s = xy.check("xy"); !s.ok()) return s;
-        c_pieces.push_back({xy.data(), xy.size(), {min[0], min[1]}, {max[0], max[1]}});
+    for (const auto &[positions, min, max] : pieces) {
+        if (Status s = positions.check("positions"); !s.ok()) return s;
+        c_pieces.push_back(
+            {positions.data(), positions.size(), {min[0], min[1]}, {max[0], max[1]}});
     }
     if (Status s = fixed.check("fixed"); !s.ok()) return s;
     return detail::make(out, [&](auto **points) {
         return azulejo_kdrt_merge(context.get(), &options, c_pieces.data(), c_pieces.size(),
-                                  fixed.data(), fixed.size(), points, report);
+                                  sizeof c_pieces[0], fixed.data(), fixed.size(), points, report);
     });
 }
 
@@ -1376,29 +1381,31 @@ public:
 
 /// Selects points of a cloud of the plane; see azulejo_thin.
 inline Status try_plane_thin(const Context &context, const ThinOptions &options,
-                             const PlanePoints &positions, Selection &out) {
+                             const PlanePoints &positions, Selection &out,
+                             ThinReport *report = nullptr) {
     if (Status s = positions.check("positions"); !s.ok()) return s;
     return detail::make(out, [&](auto **selection) {
         return azulejo_thin(context.get(), &options, positions.data(), positions.size(), 2,
-                            selection);
+                            selection, report);
     });
 }
 
 /// Selects points of a cloud in space; see azulejo_thin.
 inline Status try_space_thin(const Context &context, const ThinOptions &options,
-                             const SpacePoints &positions, Selection &out) {
+                             const SpacePoints &positions, Selection &out,
+                             ThinReport *report = nullptr) {
     if (Status s = positions.check("positions"); !s.ok()) return s;
     return detail::make(out, [&](auto **selection) {
         return azulejo_thin(context.get(), &options, positions.data(), positions.size(), 3,
-                            selection);
+                            selection, report);
     });
 }
 
 /// The unbiased reference, which is slow; see azulejo_maximal_sample.
 inline Status try_maximal_sample(const Context &context, const MaximalOptions &options,
-                                 Points &out) {
+                                 Points &out, KdrtReport *report = nullptr) {
     return detail::make(out, [&](auto **points) {
-        return azulejo_maximal_sample(context.get(), &options, points);
+        return azulejo_maximal_sample(context.get(), &options, points, report);
     });
 }
 
@@ -1428,12 +1435,12 @@ inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
     const auto sample = [&](const azulejo_psp_adaptive_options &o, azulejo_points **points) {
         return azulejo_psp_adaptive_sample(context.get(), mesh.get(), &o, points, report);
     };
-    if (options.radius != &detail::Field<3>::call) {
+    if (options.radius_function != &detail::Field<3>::call) {
         return detail::make(out, [&](auto **points) { return sample(options, points); });
     }
-    detail::Field<3> field(*static_cast<const detail::Field<3> *>(options.radius_user));
+    detail::Field<3> field(*static_cast<const detail::Field<3> *>(options.radius_function_user));
     azulejo_psp_adaptive_options c_options = options;
-    c_options.radius_user = &field;
+    c_options.radius_function_user = &field;
     return detail::make(out, [&](auto **points) { return field.after(sample(c_options, points)); });
 }
 
@@ -1455,7 +1462,7 @@ inline Status try_psp_adaptive_with_density(const Context &context, const Mesh &
     wanted.vertex_values = density.vertex_values.data();
     wanted.vertex_count = density.vertex_values.size();
     wanted.function = density.function ? &detail::Field<3>::call : nullptr;
-    wanted.user = &field;
+    wanted.function_user = &field;
     wanted.at_vertices = density.at_vertices;
     wanted.largest = density.largest;
     wanted.slope = density.slope;
@@ -1493,7 +1500,7 @@ Status with_density(const Density &density, Points &out, Call call) {
     wanted.width = density.width;
     wanted.height = values.empty() ? 0 : values.size() / density.width;
     wanted.function = density.function ? &Field<2>::call : nullptr;
-    wanted.user = &field;
+    wanted.function_user = &field;
     return make(out, [&](auto **points) { return field.after(call(&wanted, points)); });
 }
 
@@ -1501,35 +1508,39 @@ Status with_density(const Density &density, Points &out, Call call) {
 
 /// Relaxes points of the plane; see azulejo_dcr_relax.
 inline Status try_dcr_relax(const Context &context, const DcrOptions &options,
-                            const PlanePoints &xy, Points &out, DcrReport *report = nullptr) {
-    if (Status s = xy.check("xy"); !s.ok()) return s;
+                            const PlanePoints &positions, Points &out,
+                            DcrReport *report = nullptr) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
     return detail::make(out, [&](auto **points) {
-        return azulejo_dcr_relax(context.get(), &options, xy.data(), xy.size(), points, report);
+        return azulejo_dcr_relax(context.get(), &options, positions.data(), positions.size(),
+                                 points, report);
     });
 }
 
-/// Relaxes points of the plane of `count` classes; see azulejo_dcr_relax_classes. `figures` gets the
-/// rho and the coverage of each class.
+/// Relaxes points of the plane of `count` classes; see azulejo_dcr_relax_classes. `figures` gets
+/// the rho and the relative covering radius of each class.
 inline Status try_dcr_relax_classes(const Context &context, const DcrOptions &options,
-                                    const PlanePoints &xy, Span<const std::uint32_t> classes,
+                                    const PlanePoints &positions, Span<const std::uint32_t> classes,
                                     std::uint32_t count, Points &out, DcrReport *report = nullptr,
                                     std::vector<std::array<double, 2>> *figures = nullptr) {
-    if (Status s = xy.check("xy"); !s.ok()) return s;
-    if (classes.size() != xy.size()) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    if (classes.size() != positions.size()) {
         return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
                       "classes: there are " + std::to_string(classes.size()) + ", and " +
-                          std::to_string(xy.size()) + " points");
+                          std::to_string(positions.size()) + " points");
     }
     // The call refuses more classes before it writes.
-    std::array<double, AZULEJO_MAX_CLASSES> rho{}, coverage{};
+    std::array<double, AZULEJO_MAX_CLASSES> rho{}, covering_radius{};
     Status s = detail::make(out, [&](auto **points) {
-        return azulejo_dcr_relax_classes(context.get(), &options, xy.data(), classes.data(),
-                                         xy.size(), count, points, report, rho.data(),
-                                         coverage.data());
+        return azulejo_dcr_relax_classes(context.get(), &options, positions.data(), classes.data(),
+                                         positions.size(), count, rho.data(),
+                                         covering_radius.data(), points, report);
     });
     if (s.ok() && figures != nullptr) {
         figures->clear();
-        for (std::uint32_t i = 0; i < count; i++) figures->push_back({rho[i], coverage[i]});
+        for (std::uint32_t i = 0; i < count; i++) {
+            figures->push_back({rho[i], covering_radius[i]});
+        }
     }
     return s;
 }
@@ -1544,12 +1555,12 @@ inline Status try_dcr_scatter(const Context &context, const DcrOptions &options,
 
 /// Relaxes points of the plane to a density; see azulejo_dcr_relax_density.
 inline Status try_dcr_relax_density(const Context &context, const DcrOptions &options,
-                                    const Density &density, const PlanePoints &xy, Points &out,
-                                    DcrReport *report = nullptr) {
-    if (Status s = xy.check("xy"); !s.ok()) return s;
+                                    const Density &density, const PlanePoints &positions,
+                                    Points &out, DcrReport *report = nullptr) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
     return detail::with_density(density, out, [&](const azulejo_density *wanted, auto **points) {
-        return azulejo_dcr_relax_density(context.get(), &options, wanted, xy.data(), xy.size(),
-                                         points, report);
+        return azulejo_dcr_relax_density(context.get(), &options, wanted, positions.data(),
+                                         positions.size(), points, report);
     });
 }
 
@@ -1738,11 +1749,11 @@ public:
 
     /// See azulejo_spectrum_create.
     static Status try_create(const Context &context, const PlaneSet &set, std::uint32_t size,
-                             std::uint32_t stride, Spectrum &out) {
+                             std::uint32_t frequency_stride, Spectrum &out) {
         azulejo_plane_set c_set = {};
         if (Status s = detail::plane_set(set, c_set); !s.ok()) return s;
         return detail::make(out, [&](auto **spectrum) {
-            return azulejo_spectrum_create(context.get(), &c_set, size, stride, spectrum);
+            return azulejo_spectrum_create(context.get(), &c_set, size, frequency_stride, spectrum);
         });
     }
 
@@ -1757,9 +1768,12 @@ public:
     /// See azulejo_spectrum_radial.
     Status try_radial(double width, std::vector<Annulus> &out) const {
         std::size_t count = 0;
-        if (Status s{azulejo_spectrum_radial(get(), width, nullptr, 0, &count)}; !s.ok()) return s;
+        const auto radial = [&](Annulus *annuli) {
+            return azulejo_spectrum_radial(get(), width, annuli, count, sizeof *annuli, &count);
+        };
+        if (Status s{radial(nullptr)}; !s.ok()) return s;
         std::vector<Annulus> annuli(count);
-        Status status(azulejo_spectrum_radial(get(), width, annuli.data(), count, &count));
+        Status status(radial(annuli.data()));
         if (status.ok()) out = std::move(annuli);
         return status;
     }
@@ -1900,15 +1914,16 @@ inline Points kdrt_sample_classes(const Context &context, const KdrtOptions &opt
 }
 
 inline Points kdrt_sample_window(const Context &context, const KdrtOptions &options,
-                                 const Pair &window_min, const Pair &window_max) {
+                                 const Pair &window_min, const Pair &window_max,
+                                 KdrtReport *report = nullptr) {
     Points points;
-    check(try_kdrt_sample_window(context, options, window_min, window_max, points));
+    check(try_kdrt_sample_window(context, options, window_min, window_max, points, report));
     return points;
 }
 
 inline void kdrt_stream(const Context &context, const KdrtOptions &options,
-                        const KdrtVisitor &visit) {
-    check(try_kdrt_stream(context, options, visit));
+                        const KdrtVisitor &visit, KdrtReport *report = nullptr) {
+    check(try_kdrt_stream(context, options, visit, report));
 }
 
 inline Points kdrt_merge(const Context &context, const KdrtMergeOptions &options,
@@ -1920,22 +1935,23 @@ inline Points kdrt_merge(const Context &context, const KdrtMergeOptions &options
 }
 
 inline Selection plane_thin(const Context &context, const ThinOptions &options,
-                            const PlanePoints &positions) {
+                            const PlanePoints &positions, ThinReport *report = nullptr) {
     Selection selection;
-    check(try_plane_thin(context, options, positions, selection));
+    check(try_plane_thin(context, options, positions, selection, report));
     return selection;
 }
 
 inline Selection space_thin(const Context &context, const ThinOptions &options,
-                            const SpacePoints &positions) {
+                            const SpacePoints &positions, ThinReport *report = nullptr) {
     Selection selection;
-    check(try_space_thin(context, options, positions, selection));
+    check(try_space_thin(context, options, positions, selection, report));
     return selection;
 }
 
-inline Points maximal_sample(const Context &context, const MaximalOptions &options) {
+inline Points maximal_sample(const Context &context, const MaximalOptions &options,
+                             KdrtReport *report = nullptr) {
     Points points;
-    check(try_maximal_sample(context, options, points));
+    check(try_maximal_sample(context, options, points, report));
     return points;
 }
 
@@ -1968,19 +1984,20 @@ inline Points psp_adaptive_sample(const Context &context, const Mesh &mesh,
     return points;
 }
 
-inline Points dcr_relax(const Context &context, const DcrOptions &options, const PlanePoints &xy,
-                        DcrReport *report = nullptr) {
+inline Points dcr_relax(const Context &context, const DcrOptions &options,
+                        const PlanePoints &positions, DcrReport *report = nullptr) {
     Points points;
-    check(try_dcr_relax(context, options, xy, points, report));
+    check(try_dcr_relax(context, options, positions, points, report));
     return points;
 }
 
 inline Points dcr_relax_classes(const Context &context, const DcrOptions &options,
-                                const PlanePoints &xy, Span<const std::uint32_t> classes,
+                                const PlanePoints &positions, Span<const std::uint32_t> classes,
                                 std::uint32_t count, DcrReport *report = nullptr,
                                 std::vector<std::array<double, 2>> *figures = nullptr) {
     Points points;
-    check(try_dcr_relax_classes(context, options, xy, classes, count, points, report, figures));
+    check(try_dcr_relax_classes(context, options, positions, classes, count, points, report,
+                                figures));
     return points;
 }
 
@@ -1992,10 +2009,10 @@ inline Points dcr_scatter(const Context &context, const DcrOptions &options, con
 }
 
 inline Points dcr_relax_density(const Context &context, const DcrOptions &options,
-                                const Density &density, const PlanePoints &xy,
+                                const Density &density, const PlanePoints &positions,
                                 DcrReport *report = nullptr) {
     Points points;
-    check(try_dcr_relax_density(context, options, density, xy, points, report));
+    check(try_dcr_relax_density(context, options, density, positions, points, report));
     return points;
 }
 

@@ -79,20 +79,23 @@ impl Domain {
         (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
     }
 
-    /// Refuses an invalid domain, and points (`xy`) outside it.
+    /// Refuses an invalid domain, and points (`positions`) outside it.
     pub(crate) fn check_set(&self, points: &[[f32; 2]]) -> Result<()> {
         self.check()?;
         self.check_points(points)
     }
 
-    /// Refuses points (`xy`) that do not lie in `min <= x < max`, and more of them than can be indexed.
+    /// Refuses points (`positions`) that do not lie in `min <= x < max`, and more of them than can be indexed.
     pub(crate) fn check_points(&self, points: &[[f32; 2]]) -> Result<()> {
-        check::indexable("xy", "points", points.len())?;
+        check::indexable("positions", "points", points.len())?;
         match points.iter().position(|&point| !self.contains(point)) {
             None => Ok(()),
             Some(index) => {
                 let ([x, y], Self { min, max, .. }) = (points[index], self);
-                Err(Error::invalid("xy", format!("point {index} is ({x}, {y}), outside the domain {min:?} to {max:?}")))
+                Err(Error::invalid(
+                    "positions",
+                    format!("point {index} is ({x}, {y}), outside the domain {min:?} to {max:?}"),
+                ))
             }
         }
     }

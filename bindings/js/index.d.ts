@@ -143,7 +143,7 @@ export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples &
     /** The radius, that of the options or the one found for the count. */
     radius: number;
     /** A bound of the distance of any place of the surface from the samples, where one is known. */
-    coverage?: number;
+    coveringRadius?: number;
 };
 
 export interface RelaxOptions extends Domain {
@@ -171,11 +171,11 @@ export interface Relaxation {
 }
 
 /** Moves points, x y each, until they are evenly spread. */
-export function dcrRelax(points: Numbers, options?: RelaxOptions): Relaxation & {
+export function dcrRelax(positions: Numbers, options?: RelaxOptions): Relaxation & {
     /** x y of each point, in the order in which they came. */
     positions: Float32Array;
     /** The largest distance of a place of the domain from the set, in units of d_max. */
-    coverage: number;
+    relativeCoveringRadius: number;
 };
 
 /** Moves samples over their mesh until they are evenly spread. */
@@ -221,14 +221,14 @@ export interface Spacing {
 }
 
 /** Measures points of the plane, x y each. */
-export function planeMeasure(points: Numbers, options?: Domain): Spacing;
+export function planeMeasure(positions: Numbers, options?: Domain): Spacing;
 
 /** Measures positions on a mesh, x y z each; distances are straight. */
 export function meshMeasure(mesh: Mesh, positions: Numbers): Spacing;
 
 /** The power spectrum of points of the plane. */
 export function spectrum(
-    points: Numbers,
+    positions: Numbers,
     options?: Domain & {
         /** Frequencies along each axis, an even number; default 256. */
         size?: number;

@@ -131,10 +131,10 @@ function answer(index, Type) {
     return new Type(wasm.memory.buffer, wasm.azulejo_answer(index), bytes / Type.BYTES_PER_ELEMENT).slice();
 }
 
-// The library names arguments as C does, and points of the plane `xy`.
+// The library names arguments as C does.
 function inJavaScript(message) {
     const [argument, ...rest] = message.split(":");
-    const name = argument === "xy" ? "points" : argument.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
+    const name = argument.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
     return [name, ...rest].join(":");
 }
 
@@ -283,25 +283,27 @@ export function pspSample(mesh, options) {
         ];
         const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
-        const [[found, coverage], ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
-        return { ...surfaceSamples(samples), radius: found, ...(coverage < 0 ? {} : { coverage }) };
+        const [[found, coveringRadius], ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
+        return { ...surfaceSamples(samples), radius: found, ...(coveringRadius < 0 ? {} : { coveringRadius }) };
     });
 }
 
 // The last of some arrays before the others.
 const last = (arrays) => [arrays.at(-1), ...arrays.slice(0, -1)];
 
-export function dcrRelax(points, options) {
+export function dcrRelax(positions, options) {
     options = withDefaults(RELAX, options);
     return calling((call) => {
         const { neighbourhood, maxIterations, tolerance } = options;
         const args = [
             ...domainOf(options), constant("neighbourhood", neighbourhood, NEIGHBOURHOODS),
-            whole("maxIterations", maxIterations), tolerance, seedOf(options), ...call.rows("points", points, Float32Array, 2),
+            whole("maxIterations", maxIterations), tolerance, seedOf(options), ...call.rows("positions", positions, Float32Array, 2),
         ];
-        const [positions, report] = call.make("dcr_relax", args, Float32Array, Float64Array);
-        const [iterations, stopped, motion, smallestDistance, rho, coverage] = report;
-        return { positions, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho, coverage };
+        const [relaxed, report] = call.make("dcr_relax", args, Float32Array, Float64Array);
+        const [iterations, stopped, motion, smallestDistance, rho, relativeCoveringRadius] = report;
+        return {
+            positions: relaxed, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho, relativeCoveringRadius,
+        };
     });
 }
 
@@ -335,10 +337,10 @@ export function thin(positions, dimensions, options) {
     });
 }
 
-export function planeMeasure(points, options) {
+export function planeMeasure(positions, options) {
     options = withDefaults(DOMAIN, options);
     return calling((call) => {
-        const args = [...domainOf(options), ...call.rows("points", points, Float32Array, 2)];
+        const args = [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2)];
         const [[smallestDistance, coveringRadius]] = call.make("plane_measure", args, Float64Array);
         return { smallestDistance, coveringRadius };
     });
@@ -352,10 +354,10 @@ export function meshMeasure(mesh, positions) {
     });
 }
 
-export function spectrum(points, options) {
+export function spectrum(positions, options) {
     options = withDefaults(SPECTRUM, options);
     return calling((call) => {
-        const array = call.rows("points", points, Float32Array, 2);
+        const array = call.rows("positions", positions, Float32Array, 2);
         const args = [...domainOf(options), ...array, whole("size", options.size), options.width];
         const [power, numbers] = call.make("spectrum", args, Float32Array, Float64Array);
         const annuli = Array.from({ length: numbers.length / 4 }, (_, i) => {

@@ -107,7 +107,7 @@ class PspReport:
     @property
     def radius(self) -> float: ...
     @property
-    def coverage(self) -> Optional[float]: ...
+    def covering_radius(self) -> Optional[float]: ...
     @property
     def rho(self) -> float: ...
     @property
@@ -155,11 +155,11 @@ class DcrReport:
     @property
     def rho(self) -> float: ...
     @property
-    def coverage(self) -> Optional[float]: ...
+    def relative_covering_radius(self) -> Optional[float]: ...
     @property
     def class_rho(self) -> Optional[NDArray[np.float64]]: ...
     @property
-    def class_coverage(self) -> Optional[NDArray[np.float64]]: ...
+    def class_relative_covering_radius(self) -> Optional[NDArray[np.float64]]: ...
 
 class DcrRemeshReport:
     @property
@@ -249,9 +249,9 @@ class SpectrumReport:
 class Spectrum:
     def __init__(
         self,
-        xy: ArrayLike,
+        positions: ArrayLike,
         size: SupportsIndex,
-        stride: SupportsIndex = 1,
+        frequency_stride: SupportsIndex = 1,
         *,
         domain_min: _Numbers = [0.0, 0.0],
         domain_max: _Numbers = [1.0, 1.0],
@@ -432,7 +432,7 @@ def psp_adaptive_with_density(
     progress: _Progress = None,
 ) -> Points: ...
 def dcr_relax(
-    xy: ArrayLike,
+    positions: ArrayLike,
     *,
     domain_min: _Numbers = [0.0, 0.0],
     domain_max: _Numbers = [1.0, 1.0],
@@ -454,7 +454,7 @@ def dcr_relax(
     progress: _Progress = None,
 ) -> Points: ...
 def dcr_relax_classes(
-    xy: ArrayLike,
+    positions: ArrayLike,
     classes: ArrayLike,
     *,
     domain_min: _Numbers = [0.0, 0.0],
@@ -467,7 +467,7 @@ def dcr_relax_classes(
     progress: _Progress = None,
 ) -> Points: ...
 def dcr_relax_density(
-    xy: ArrayLike,
+    positions: ArrayLike,
     density: ArrayLike,
     *,
     domain_min: _Numbers = [0.0, 0.0],
@@ -520,7 +520,7 @@ def thin(
     progress: _Progress = None,
 ) -> Selection: ...
 def plane_smallest_distance(
-    xy: ArrayLike,
+    positions: ArrayLike,
     *,
     domain_min: _Numbers = [0.0, 0.0],
     domain_max: _Numbers = [1.0, 1.0],
@@ -529,7 +529,7 @@ def plane_smallest_distance(
     progress: _Progress = None,
 ) -> float: ...
 def plane_covering_radius(
-    xy: ArrayLike,
+    positions: ArrayLike,
     *,
     domain_min: _Numbers = [0.0, 0.0],
     domain_max: _Numbers = [1.0, 1.0],
@@ -544,7 +544,7 @@ def space_smallest_distance(
     progress: _Progress = None,
 ) -> float: ...
 def plane_coverage(
-    xy: ArrayLike,
+    positions: ArrayLike,
     radius: SupportsFloat,
     *,
     domain_min: _Numbers = [0.0, 0.0],
@@ -572,7 +572,7 @@ def mesh_uncovered_fraction(
     progress: _Progress = None,
 ) -> float: ...
 def plane_measure(
-    xy: ArrayLike,
+    positions: ArrayLike,
     *,
     domain_min: _Numbers = [0.0, 0.0],
     domain_max: _Numbers = [1.0, 1.0],
@@ -581,7 +581,7 @@ def plane_measure(
     progress: _Progress = None,
 ) -> PlaneReport: ...
 def plane_nearest_histogram(
-    xy: ArrayLike,
+    positions: ArrayLike,
     reach: SupportsFloat,
     bins: SupportsIndex,
     *,
@@ -592,7 +592,7 @@ def plane_nearest_histogram(
     progress: _Progress = None,
 ) -> NDArray[np.uint64]: ...
 def plane_radial_distribution(
-    xy: ArrayLike,
+    positions: ArrayLike,
     reach: SupportsFloat,
     bins: SupportsIndex,
     *,

@@ -77,7 +77,7 @@ fn format_error(path: &Path, reason: impl Into<String>) -> Error {
 /// An error about points, with the file that they come from.
 pub fn blame(path: &Path, error: Error) -> Error {
     match error {
-        Error::InvalidArgument { argument: "xy" | "positions" | "normals", reason } => format_error(path, reason),
+        Error::InvalidArgument { argument: "positions" | "normals", reason } => format_error(path, reason),
         Error::InvalidArgument {
             argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances" | "classes"),
             reason,

@@ -28,7 +28,7 @@ fuzz_target!(|bytes: &[u8]| {
     } else {
         let guest = Guest::new(&options, &mut input);
         let user = (&raw const guest).cast_mut().cast();
-        relax(&options, &azulejo_density { function: Some(density_at), user, ..none() }, &points, guest.kind == 7);
+        relax(&options, &azulejo_density { function: Some(density_at), function_user: user, ..none() }, &points, guest.kind == 7);
     }
 });
 
@@ -57,7 +57,7 @@ fn none() -> azulejo_density {
         width: 0,
         height: 0,
         function: None,
-        user: std::ptr::null_mut(),
+        function_user: std::ptr::null_mut(),
     }
 }
 
@@ -147,7 +147,7 @@ fn relax(options: &azulejo_dcr_options, density: &azulejo_density, points: &[[f3
     assert_eq!(relaxed.len(), count);
     relaxation::check(options, relaxed);
     assert!(report.iterations <= options.max_iterations && report.motion >= 0.0 && report.rho >= 0.0, "{}", report.rho);
-    assert!(report.coverage >= 0.0, "{}", report.coverage);
+    assert!(report.relative_covering_radius >= 0.0, "{}", report.relative_covering_radius);
     if is_constant {
         // The spacing is that of floats.
         let rho = report.smallest_distance / relaxation::unit(options, count);

@@ -29,14 +29,14 @@ struct Set {
     points: Vec<[f32; 2]>,
     min: [f64; 2],
     max: [f64; 2],
-    boundary: i32,
+    boundary: u32,
 }
 
 impl Set {
     fn new(input: &mut Input) -> Self {
         let min = [input.coordinate(), input.coordinate()].map(f64::from);
         let max = std::array::from_fn(|axis| min[axis] + input.number());
-        let boundary = if input.one_in(32) { input.any() } else { i32::from(input.one_in(2)) };
+        let boundary = if input.one_in(32) { input.any() } else { u32::from(input.one_in(2)) };
         let mut points = input.rows::<2>(60);
         if !input.one_in(4) {
             points.retain(|point| (0..2).all(|axis| (min[axis]..max[axis]).contains(&point[axis].into())));
@@ -113,7 +113,7 @@ impl Set {
         let mut annuli = vec![azulejo_annulus { frequency: -1.0, power: -1.0, anisotropy: -1.0, count: 0 }; capacity];
         let start = if capacity == 0 { std::ptr::null_mut() } else { annuli.as_mut_ptr() };
         // SAFETY: the array has this capacity.
-        let radial = |out: Out<_>| unsafe { azulejo_spectrum_radial(mean.get(), width, start, capacity, out) };
+        let radial = |out: Out<_>| unsafe { azulejo_spectrum_radial(mean.get(), width, start, capacity, size_of::<azulejo_annulus>(), out) };
         if let Some(count) = value(radial) {
             assert!(annuli.iter().take(count).all(|annulus| annulus.count >= 2 && annulus.power >= 0.0));
         }

@@ -84,7 +84,7 @@ fn hostile<T>(input: &mut Input, init: unsafe extern "C" fn(*mut T, usize) -> az
         match input.below(3) {
             0 => memory.bytes().iter_mut().skip(at - 4).take(1).for_each(|byte| *byte = input.any()),
             1 => _ = memory.put(at & !7, input.number()),
-            _ => _ = memory.put(at & !3, input.any::<i32>().rem_euclid(4)),
+            _ => _ = memory.put(at & !3, input.any::<u32>() % 4),
         }
     }
     memory
@@ -129,12 +129,12 @@ fn kdrt(input: &mut Input, patience: &Patience) {
     unsafe {
         create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
         patience.again(0);
-        create(|out| azulejo_kdrt_sample_window(context(), options, corners[0].as_ptr(), corners[1].as_ptr(), out));
+        create(|out| azulejo_kdrt_sample_window(context(), options, corners[0].as_ptr(), corners[1].as_ptr(), out, std::ptr::null_mut()));
         patience.again(0);
-        accepted(azulejo_kdrt_stream(context(), options, None, null_mut()));
+        accepted(azulejo_kdrt_stream(context(), options, None, null_mut(), std::ptr::null_mut()));
         let mut visitor = Visitor::default();
         patience.again(if input.one_in(2) { PATIENCE } else { 0 });
-        if accepted(azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast())) {
+        if accepted(azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast(), std::ptr::null_mut())) {
             patience.again(u32::MAX);
             let set = create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
             let set = set.expect("what is streamed can be sampled");
@@ -154,12 +154,12 @@ struct Visitor {
     xy: Vec<f32>,
 }
 
-unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, count: usize) -> i32 {
+unsafe extern "C-unwind" fn visit(user: *mut c_void, positions: *const f32, count: usize) -> u32 {
     assert!(count > 0, "a part without samples");
     // SAFETY: the call above leads here with its visitor, and the header says how long the array is.
-    let (visitor, part) = unsafe { (&mut *user.cast::<Visitor>(), array(xy, 2 * count)) };
+    let (visitor, part) = unsafe { (&mut *user.cast::<Visitor>(), array(positions, 2 * count)) };
     visitor.xy.extend(part);
-    i32::from(visitor.xy.len() > MOST)
+    u32::from(visitor.xy.len() > MOST)
 }
 
 fn maximal(input: &mut Input, patience: &Patience) {
@@ -168,7 +168,7 @@ fn maximal(input: &mut Input, patience: &Patience) {
         quick(&mut memory, std::mem::offset_of!(azulejo_maximal_options, radius));
     }
     // SAFETY: the options have the size in their `struct_size`.
-    create(|out| unsafe { azulejo_maximal_sample(context(), memory.start.cast(), out) });
+    create(|out| unsafe { azulejo_maximal_sample(context(), memory.start.cast(), out, std::ptr::null_mut()) });
 }
 
 fn merge(input: &mut Input, patience: &Patience) {
@@ -177,10 +177,10 @@ fn merge(input: &mut Input, patience: &Patience) {
         quick(&mut memory, std::mem::offset_of!(azulejo_kdrt_merge_options, radius));
     }
     let xy = [0.5f32, 0.5];
-    let piece = azulejo_kdrt_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
+    let piece = azulejo_kdrt_merge_piece { positions: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
     let null = std::ptr::null();
     // SAFETY: the options have the size in their `struct_size`, the piece has one sample.
-    create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, null, 0, out, null_mut()) });
+    create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, size_of::<azulejo_kdrt_merge_piece>(), null, 0, out, null_mut()) });
 }
 
 fn triangle() -> Owned<azulejo_mesh> {
@@ -218,7 +218,7 @@ fn adaptive(input: &mut Input, patience: &Patience) {
     );
     memory.put(std::mem::offset_of!(azulejo_psp_adaptive_options, vertex_count), count);
     memory.put(
-        std::mem::offset_of!(azulejo_psp_adaptive_options, radius),
+        std::mem::offset_of!(azulejo_psp_adaptive_options, radius_function),
         (!by_vertex).then_some(constant as unsafe extern "C-unwind" fn(_, _) -> _),
     );
     if !watched!(memory, azulejo_psp_adaptive_options, patience) {

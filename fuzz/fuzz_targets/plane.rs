@@ -27,7 +27,7 @@ fuzz_target!(|bytes: &[u8]| {
     let patience = Patience::new(if input.one_in(4) { input.below(50) } else { u32::MAX });
     let options = azulejo_kdrt_options {
         struct_size: size_of::<azulejo_kdrt_options>() as u32,
-        boundary: i32::from(input.one_in(2)),
+        boundary: u32::from(input.one_in(2)),
         radius,
         domain_min: min,
         domain_max: [min[0] + sides[0], min[1] + sides[1]],
@@ -36,7 +36,7 @@ fuzz_target!(|bytes: &[u8]| {
         progress: Some(Patience::tell),
         progress_user: patience.user(),
         count: 0,
-        measure_coverage: 0,
+        measure_covering_radius: 0,
         order: 0,
         quotient: 0.0,
         coarsest: 0.0,
@@ -102,7 +102,7 @@ fn maximal(options: &azulejo_kdrt_options) {
         progress_user,
     };
     // SAFETY: the options have the size in their `struct_size`.
-    let Some(set) = create(|out| unsafe { azulejo_maximal_sample(context(), &request, out) }).map(Set::of) else {
+    let Some(set) = create(|out| unsafe { azulejo_maximal_sample(context(), &request, out, std::ptr::null_mut()) }).map(Set::of) else {
         return;
     };
     check(options, &set.positions);
@@ -110,13 +110,13 @@ fn maximal(options: &azulejo_kdrt_options) {
 }
 
 fn counted(options: &azulejo_kdrt_options, count: u32) {
-    let request = azulejo_kdrt_options { radius: 0.0, count: count as usize, measure_coverage: 1, ..*options };
+    let request = azulejo_kdrt_options { radius: 0.0, count: count as usize, measure_covering_radius: 1, ..*options };
     let mut report = report(azulejo_kdrt_report_init);
     // SAFETY: the structs have the sizes in their `struct_size`.
     let call = |out: Out<_>| unsafe { azulejo_kdrt_sample(context(), &request, out, &raw mut report) };
     let Some(set) = create(call).map(Set::of) else { return };
     assert_eq!(set.positions.len(), count as usize);
-    check_coverage(&request, &set.positions, report.coverage);
+    check_coverage(&request, &set.positions, report.covering_radius);
     check_set(&azulejo_kdrt_options { radius: report.radius, ..request }, &Given::default(), &set);
 }
 
@@ -126,7 +126,7 @@ fn window(options: &azulejo_kdrt_options, given: &Given, patience: &Patience, in
         .map(|_| -> [f64; 2] { std::array::from_fn(|axis| options.domain_min[axis] + f64::from(input.coordinate())) });
     // SAFETY: the options have the size in their `struct_size`, and the corners two numbers each.
     let call =
-        |out: Out<_>| unsafe { azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out) };
+        |out: Out<_>| unsafe { azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out, std::ptr::null_mut()) };
     let Some(part) = create(call).map(Set::of) else { return };
     check_set(options, given, &part);
     patience.again(u32::MAX);
@@ -158,18 +158,18 @@ struct Visitor {
     samples: Vec<[f32; 2]>,
 }
 
-unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, count: usize) -> i32 {
+unsafe extern "C-unwind" fn visit(user: *mut c_void, positions: *const f32, count: usize) -> u32 {
     // SAFETY: `stream` leads here with this user, the library with so many samples.
-    let (visitor, xy) = unsafe { (&mut *user.cast::<Visitor>(), array(xy, 2 * count)) };
+    let (visitor, xy) = unsafe { (&mut *user.cast::<Visitor>(), array(positions, 2 * count)) };
     visitor.samples.extend(xy.as_chunks::<2>().0);
     visitor.left = visitor.left.saturating_sub(1);
-    i32::from(visitor.left == 0)
+    u32::from(visitor.left == 0)
 }
 
 fn stream(options: &azulejo_kdrt_options, given: &Given, visits: u32) {
     let mut visitor = Visitor { left: visits, samples: Vec::new() };
     // SAFETY: the options have the size in their `struct_size`, and the visitor lives.
-    let status = unsafe { azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast()) };
+    let status = unsafe { azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast(), std::ptr::null_mut()) };
     let is_whole = accepted(status);
     // Without the callback that may have lost its patience.
     let Some(whole) = create_set(&azulejo_kdrt_options { progress: None, ..*options }) else {
@@ -207,12 +207,12 @@ fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
     let fixed = if input.one_in(2) { input.rows::<2>(4) } else { Vec::new() };
     let piece = |i: usize| {
         let ((min, max), samples) = (halves[i], &samples[i]);
-        azulejo_kdrt_merge_piece { xy: samples.as_ptr().cast(), count: samples.len(), min, max }
+        azulejo_kdrt_merge_piece { positions: samples.as_ptr().cast(), count: samples.len(), min, max }
     };
     let pieces = [piece(0), piece(1)];
     // SAFETY: all arrays have the given lengths.
     let call = |out: Out<_>| unsafe {
-        azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, fixed.as_ptr().cast(), fixed.len(), out, null_mut())
+        azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, size_of::<azulejo_kdrt_merge_piece>(), fixed.as_ptr().cast(), fixed.len(), out, null_mut())
     };
     let Some(set) = create(call).map(Set::of) else { return };
     check(options, &set.positions);

@@ -52,11 +52,10 @@ fn in_classes(options: &azulejo_dcr_options, points: &[[f32; 2]], input: &mut In
             of,
             count,
             class_count,
-            out,
-            &raw mut report,
             rho_of,
             coverage_of,
-        )
+            out,
+            &raw mut report)
     };
     let Some(relaxed) = create(call) else { return };
     let (relaxed, _) = Arrays::of(&relaxed).positions.as_chunks::<2>();

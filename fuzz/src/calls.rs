@@ -156,14 +156,14 @@ impl Patience {
     ///
     /// # Safety
     /// `user` is NULL or that of a patience that is alive.
-    pub unsafe extern "C-unwind" fn tell(user: *mut c_void, done: f64) -> i32 {
+    pub unsafe extern "C-unwind" fn tell(user: *mut c_void, done: f64) -> u32 {
         // SAFETY: by the contract.
         let Some(patience) = (unsafe { user.cast::<Self>().as_ref() }) else { return 1 };
         let last = patience.last.replace(done);
         assert!((last..=1.0).contains(&done) || done == 0.0, "{done} after {last}");
         let left = patience.left.get();
         patience.left.set(left.saturating_sub(1));
-        if left == 0 { -7 } else { 0 }
+        if left == 0 { 7 } else { 0 }
     }
 }
 

@@ -160,11 +160,14 @@ pub fn check_covered(options: &azulejo_kdrt_options, given: &Given, set: &Set) {
 }
 
 /// The covering radius is as reported: that much covers, and a little less does not.
-pub fn check_coverage(options: &azulejo_kdrt_options, samples: &[[f32; 2]], coverage: f64) {
-    let slack = tolerance(options) + 1e-6 * coverage;
+pub fn check_coverage(options: &azulejo_kdrt_options, samples: &[[f32; 2]], covering_radius: f64) {
+    let slack = tolerance(options) + 1e-6 * covering_radius;
     let gap = |radius: f64| gap(options, &Given::default(), samples, radius, 0.0);
-    assert_eq!(gap(coverage + slack), None, "farther than {coverage}");
-    assert!(coverage <= slack || gap(coverage - slack).is_some(), "covered by less than {coverage}");
+    assert_eq!(gap(covering_radius + slack), None, "farther than {covering_radius}");
+    assert!(
+        covering_radius <= slack || gap(covering_radius - slack).is_some(),
+        "covered by less than {covering_radius}"
+    );
 }
 
 /// No two samples are too close, and all are in the domain.
@@ -193,7 +196,7 @@ mod tests {
     }
 
     /// Samples of a square lattice that just cover the unit torus or square.
-    fn case(boundary: i32) -> (azulejo_kdrt_options, Vec<[f32; 2]>) {
+    fn case(boundary: u32) -> (azulejo_kdrt_options, Vec<[f32; 2]>) {
         let options = azulejo_kdrt_options { radius: 0.1011, boundary, ..report(azulejo_kdrt_options_init) };
         let at = |i: usize| (i as f32 + 0.5) / 7.0;
         (options, (0..49).map(|i| [at(i % 7), at(i / 7)]).collect())

@@ -11,21 +11,21 @@ use crate::input::Input;
 pub fn options(input: &mut Input, patience: &Patience) -> azulejo_dcr_options {
     let min = [input.coordinate(), input.coordinate()].map(f64::from);
     let sides = [input.number(), input.number()];
-    let method = i32::from(input.one_in(2));
+    let method = u32::from(input.one_in(2));
     // The momentum method takes the defaults only.
     let is_thesis = method == AZULEJO_METHOD_THESIS || input.one_in(16);
     let mut number = |usual: f64, one_in: u8| if is_thesis && input.one_in(one_in) { input.number() } else { usual };
     let [conflict_radius, attraction_radius] = [number(0.95, 16), number(1.05, 16)];
     let [step, decay] = [number(0.05, 2), number(1.0, 8)];
-    let mut choice = |choices: i32| if is_thesis { input.any::<i32>().rem_euclid(choices) } else { 0 };
+    let mut choice = |choices: u32| if is_thesis { input.below(choices) } else { 0 };
     let [distribution, visits, convergence] = [choice(5), choice(2), choice(2)];
     let neighbours = if is_thesis && input.one_in(8) { input.any() } else { 6 };
     azulejo_dcr_options {
         struct_size: size_of::<azulejo_dcr_options>() as u32,
-        boundary: i32::from(input.one_in(2)),
+        boundary: u32::from(input.one_in(2)),
         domain_min: min,
         domain_max: [min[0] + sides[0], min[1] + sides[1]],
-        neighbourhood: i32::from(input.one_in(2)),
+        neighbourhood: u32::from(input.one_in(2)),
         method,
         max_iterations: input.below(24),
         reserved: 0,
@@ -79,7 +79,7 @@ pub fn unit(options: &azulejo_dcr_options, count: usize) -> f64 {
 /// distance by all pairs, the covering radius by cutting the domain into pieces.
 pub fn check_report(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dcr_report) {
     if let Some(fault) = fault(options, points, report) {
-        panic!("{fault}: rho {}, coverage {}, {points:?}", report.rho, report.coverage);
+        panic!("{fault}: rho {}, coverage {}, {points:?}", report.rho, report.relative_covering_radius);
     }
 }
 
@@ -101,7 +101,8 @@ fn fault(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dc
     if points.is_empty() {
         return None;
     }
-    let (coverage, slack) = (report.coverage * unit, 1e-6 * (1.0 + report.coverage) * unit + spacing);
+    let (coverage, slack) =
+        (report.relative_covering_radius * unit, 1e-6 * (1.0 + report.relative_covering_radius) * unit + spacing);
     let gap = |radius: f64| find_gap(&domain, points.iter().map(|&point| (point, radius)), 0.0, slack / 16.0);
     if let Some(gap) = gap(coverage + slack) {
         return Some(format!("{gap:?} is farther than {coverage} from all points"));
@@ -124,10 +125,10 @@ mod tests {
             let at = |i: usize| (i as f32 + 0.5) / 7.0;
             let points: Vec<[f32; 2]> = (0..49).map(|i| [at(i % 7), at(i / 7)]).collect();
             let unit = (2.0 / 3f64.sqrt() / 49.0).sqrt();
-            let told = |distance: f64, coverage: f64| azulejo_dcr_report {
+            let told = |distance: f64, covering_radius: f64| azulejo_dcr_report {
                 smallest_distance: distance,
                 rho: distance / unit,
-                coverage: coverage / unit,
+                covering_radius: coverage / unit,
                 ..report(azulejo_dcr_report_init)
             };
             let smallest = (0..49).flat_map(|i| (0..i).map(move |j| (i, j)));

@@ -107,8 +107,8 @@ impl Request {
             radius,
             seed: input.any(),
             maximal: u32::from(!input.one_in(4)),
-            priority: i32::from(input.one_in(4)),
-            engine: i32::from(input.one_in(2)),
+            priority: u32::from(input.one_in(4)),
+            engine: u32::from(input.one_in(2)),
             order: AZULEJO_ORDER_ANY,
             progress: Some(Patience::tell),
             progress_user: patience.user(),
@@ -203,7 +203,7 @@ fn at_once(mesh: &Owned<azulejo_mesh>, corners: &Corners, options: &azulejo_psp_
         check_uniform(corners, &points, options.radius);
     }
     if options.maximal == 1 {
-        check_covered(mesh, corners, &points, report.coverage, given, options.radius);
+        check_covered(mesh, corners, &points, report.covering_radius, given, options.radius);
     }
 }
 
@@ -212,13 +212,13 @@ fn check_covered(
     mesh: &Owned<azulejo_mesh>,
     corners: &Corners,
     points: &Owned<azulejo_points>,
-    coverage: f64,
+    covering_radius: f64,
     given: &Given,
     radius: f64,
 ) {
-    let samples = Ball::of_positions(Arrays::of(points).positions.as_chunks::<3>().0, |_| coverage);
+    let samples = Ball::of_positions(Arrays::of(points).positions.as_chunks::<3>().0, |_| covering_radius);
     let balls = [samples, Ball::of_given(given, radius)].concat();
-    assert_eq!(uncovered(mesh, corners, &Field::None, &balls, |_| true), None, "within {coverage}");
+    assert_eq!(uncovered(mesh, corners, &Field::None, &balls, |_| true), None, "within {covering_radius}");
 }
 
 /// Sets of exact counts, and in progressive order.
@@ -246,8 +246,8 @@ fn ordered(
     let set = Arrays::of(&points);
     corners.check(&set);
     assert!(count == 0 || set.triangles.len() == count);
-    assert!(report.coverage >= report.radius, "{} {}", report.coverage, report.radius);
-    check_covered(mesh, corners, &points, report.coverage, given, report.radius);
+    assert!(report.covering_radius >= report.radius, "{} {}", report.covering_radius, report.radius);
+    check_covered(mesh, corners, &points, report.covering_radius, given, report.radius);
     if options.cosine == -1.0 {
         let (positions, _) = set.positions.as_chunks::<3>();
         check_distances(positions, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), |_, _| report.radius);

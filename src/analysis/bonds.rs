@@ -20,7 +20,7 @@ use crate::points::Domain;
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn bond_order(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Option<&Progress>) -> Result<f64> {
     domain.check_set(points)?;

@@ -71,7 +71,7 @@ struct LocalFrame {
 /// Takes O(points), about 200 pairs each.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`xy`), and for a
+/// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`positions`), and for a
 /// domain that is not at least twice the [`REACH`] wide and high (`domain`); [`Error::Cancelled`].
 pub fn plane_differences(
     context: &Context,
@@ -80,7 +80,7 @@ pub fn plane_differences(
     progress: Option<&Progress>,
 ) -> Result<Differences> {
     domain.check_set(points)?;
-    check_count("xy", points.len())?;
+    check_count("positions", points.len())?;
     let unit = (domain.area() / points.len() as f64).sqrt();
     let extent = DVec2::from(domain.extent()) / unit;
     if extent.min_element() < 2.0 * REACH {

@@ -38,7 +38,7 @@ pub struct RadialDistribution {
 /// Takes O(points · (1 + reach²)) for points that are spread about evenly: there are 3.6 reach² pairs for each.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`xy`), for `bins`
+/// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`positions`), for `bins`
 /// outside of 1 to [`MAX_BINS`], and for a `reach` that is not above 0, or above half the width or height of the
 /// domain; [`Error::Cancelled`].
 pub fn radial_distribution(
@@ -51,7 +51,7 @@ pub fn radial_distribution(
 ) -> Result<RadialDistribution> {
     domain.check_set(points)?;
     if points.len() < 2 {
-        return Err(Error::invalid("xy", format!("{} points have no distances", points.len())));
+        return Err(Error::invalid("positions", format!("{} points have no distances", points.len())));
     }
     check_bins(reach, bins)?;
     let unit = domain.hexagonal_distance(points.len());

@@ -28,7 +28,7 @@ pub struct Figures {
 /// Measures a set of the plane. Takes O(n log n) for sets without large clusters.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn figures_2d(
     context: &Context,

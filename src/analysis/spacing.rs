@@ -15,7 +15,7 @@ const TASK: usize = 256;
 /// Takes O(n) for sets without large clusters.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn nearest_distances_2d(
     context: &Context,

@@ -61,7 +61,7 @@ impl Triangle {
 /// on both sides of the torus: there some triangles may be missing and others overlap.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn delaunay_triangles(
     context: &Context,

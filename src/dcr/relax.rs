@@ -135,7 +135,7 @@ impl From<DelaunayOptions> for Options {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for options out of their range and for points outside the
-/// domain or not finite (`xy`, with index and value), [`Error::TooLarge`] for more than
+/// domain or not finite (`positions`, with index and value), [`Error::TooLarge`] for more than
 /// 2^32 - 1 points.
 pub fn relax(
     context: &Context,
@@ -159,7 +159,7 @@ pub fn relax_observed(
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     options.domain.check_points(points)?;
-    require_memory("xy", points.len())?;
+    require_memory("positions", points.len())?;
     let Options { domain, neighbourhood, seed, .. } = *options;
     match &options.method {
         Method::Momentum => {

@@ -298,7 +298,7 @@ pub struct Report {
     pub rho: f64,
     /// The largest distance of a position in the domain from the set, in units of `d_max`, up to the rounding of the
     /// returned floats; infinite for no point.
-    pub coverage: f64,
+    pub relative_covering_radius: f64,
 }
 
 /// A set in the plane, for its report.
@@ -313,7 +313,7 @@ pub trait PlaneRelaxation: Relaxation {
 
     /// The largest distance from the set, in units of the domain; if the spacing varies, as large as it would be at the
     /// mean spacing.
-    fn coverage(&mut self, job: &Job) -> Result<f64>;
+    fn covering_radius(&mut self, job: &Job) -> Result<f64>;
 }
 
 /// Makes the steps of a set of the plane and measures the result.
@@ -345,7 +345,7 @@ pub fn measure(
     let relaxed = if iterations > 0 { set.points(points) } else { points.to_vec() };
     let smallest_distance = smallest_distance(&job.part(0.0, 0.25), domain, &relaxed)?;
     let relative_spacing = set.relative_spacing(&job.part(0.25, 0.5), &relaxed)?;
-    let coverage = if points.is_empty() { f64::INFINITY } else { set.coverage(&job.part(0.5, 1.0))? };
+    let covering_radius = if points.is_empty() { f64::INFINITY } else { set.covering_radius(&job.part(0.5, 1.0))? };
     let unit = domain.hexagonal_distance(points.len().max(1));
     let report = Report {
         iterations,
@@ -353,7 +353,7 @@ pub fn measure(
         motion,
         smallest_distance,
         rho: relative_spacing.unwrap_or(smallest_distance / unit),
-        coverage: coverage / unit,
+        relative_covering_radius: covering_radius / unit,
     };
     Ok((relaxed, report))
 }

@@ -132,7 +132,7 @@ impl Delaunay {
     }
 
     /// The largest distance from the points: the largest circumradius of the triangles that touch one.
-    pub fn coverage(&self) -> f64 {
+    pub fn covering_radius(&self) -> f64 {
         self.circumcircles().map(|(_, radius)| radius).fold(0.0, f64::max)
     }
 

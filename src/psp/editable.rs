@@ -277,7 +277,7 @@ impl EditableSet {
             samples: self.len as u64,
             rho: rho(&self.mesh, self.len, self.radius),
             radius: self.radius,
-            coverage: Some(self.radius),
+            covering_radius: Some(self.radius),
             uncovered_after: Some(0.0),
             ..Report::of_fill(added.len(), darts, &stopwatch)
         };
@@ -491,7 +491,10 @@ pub fn sample_region(
     }
     set.blocks = Some(blocks);
     let (points, report) = set.refill(context, seed, progress)?;
-    Ok((Points { ids: Vec::new(), ..points }, Report { rho: 0.0, coverage: None, uncovered_after: None, ..report }))
+    Ok((
+        Points { ids: Vec::new(), ..points },
+        Report { rho: 0.0, covering_radius: None, uncovered_after: None, ..report },
+    ))
 }
 
 impl GivenSample {

@@ -255,7 +255,7 @@ pub fn by_radius<S: Levelled>(
         ladder.descend(job)?;
     }
     let darts = ladder.levels.darts;
-    Ok(LevelledSet { samples: ladder.levels.into_sorted(), radius, coverage: radius, darts })
+    Ok(LevelledSet { samples: ladder.levels.into_sorted(), radius, covering_radius: radius, darts })
 }
 
 /// The first `count` samples of the ladder. No radius is below the finest.
@@ -302,7 +302,7 @@ pub struct LevelledSet<S> {
     /// A lower bound of the distance of two samples.
     pub radius: f64,
     /// An upper bound of the distance of a place of the surface from the nearest sample.
-    pub coverage: f64,
+    pub covering_radius: f64,
     pub darts: u64,
 }
 
@@ -323,8 +323,8 @@ impl<S: Ranked> LevelledSet<S> {
         let mut samples = levels.into_sorted();
         samples.truncate(count);
         let rank = samples.last().map_or(last, |sample| f64::from(sample.sample().rank));
-        let coverage = if len == count { last } else { former };
-        Self { samples, radius: if rank.is_finite() { rank } else { last }, coverage, darts }
+        let covering_radius = if len == count { last } else { former };
+        Self { samples, radius: if rank.is_finite() { rank } else { last }, covering_radius, darts }
     }
 }
 

@@ -201,7 +201,7 @@ impl Psp {
             seconds: stopwatch.seconds(),
             rho: rho(&self.mesh, self.len(), self.options.radius),
             radius: self.options.radius,
-            coverage: report.uncovered_after.map(|_| self.options.radius),
+            covering_radius: report.uncovered_after.map(|_| self.options.radius),
             ..report
         }
     }
@@ -341,7 +341,7 @@ fn sample_levels(
         uncovered_before: given.is_empty().then_some(if mesh.area() > 0.0 { 1.0 } else { 0.0 }),
         uncovered_after: matches!(amount, Amount::Radius(_)).then_some(0.0),
         radius: found.radius,
-        coverage: Some(found.coverage),
+        covering_radius: Some(found.covering_radius),
         ..Report::of_fill(len, found.darts, &stopwatch)
     };
     Ok((samples, report))

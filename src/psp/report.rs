@@ -54,7 +54,7 @@ pub struct Report {
     /// times the radius), in progressive order at most [`Options::quotient`](super::Options::quotient) times the
     /// radius, from [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples on. Where radii vary, a bound of their
     /// factor.
-    pub coverage: Option<f64>,
+    pub covering_radius: Option<f64>,
 }
 
 impl Report {

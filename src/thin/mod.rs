@@ -86,7 +86,7 @@ impl Options {
 setters!(Options { radius: f64, count: usize, order: Order, seed: u64 });
 
 /// The points of a cloud that are selected.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Selection {
     /// Their indices in the cloud.
@@ -97,6 +97,9 @@ pub struct Selection {
     /// The points of ranks of at least r are at least r apart, and every point of the cloud is within the next rank of
     /// one of them, up to the rounding.
     pub ranks: Vec<f32>,
+    /// No two selected points are closer: the radius by which they were selected, otherwise the smallest distance of
+    /// two. Infinite for less than two points.
+    pub radius: f64,
 }
 
 /// Selects points of a cloud, in the plane (`D` = 2), in space (3) or with any number of coordinates.
@@ -143,6 +146,9 @@ pub fn thin<const D: usize>(
     let bytes = BYTES_PER_POINT + D as f64 * BYTES_PER_COORDINATE;
     memory::require(count as f64 * bytes, "positions", &format!("{count} points"))?;
     context.run(progress, |job| {
-        if positions.is_empty() { Ok(Selection::default()) } else { select(job, Level::widest(), options, positions) }
+        if positions.is_empty() {
+            return Ok(Selection { indices: Vec::new(), ranks: Vec::new(), radius: f64::INFINITY });
+        }
+        select(job, Level::widest(), options, positions)
     })
 }

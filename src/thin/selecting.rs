@@ -41,13 +41,19 @@ pub(super) fn select<const D: usize>(
         selecting.select_coincident(end.count);
     }
     let Selecting { mut indices, squared, .. } = selecting;
-    match options.order {
+    let radius = match squared[..] {
+        [] | [_] => f64::INFINITY,
+        _ if by_radius => options.radius,
+        [.., last] => last.sqrt(),
+    };
+    let ranks = match options.order {
         Order::Any => {
             indices.sort_unstable();
-            Ok(Selection { indices, ranks: Vec::new() })
+            Vec::new()
         }
-        Order::Progressive => Ok(Selection { indices, ranks: squared.into_iter().map(rank).collect() }),
-    }
+        Order::Progressive => squared.into_iter().map(rank).collect(),
+    };
+    Ok(Selection { indices, ranks, radius })
 }
 
 /// The end of a selection.

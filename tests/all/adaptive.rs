@@ -308,15 +308,15 @@ fn bad_functions_and_cosines_are_refused() {
     ];
     for at in bad {
         let (argument, reason) = of(at, 0.05, 0.1, 0.1);
-        assert!(argument == "radius" && reason.contains("is not in 0.05..=0.1"), "{reason}");
+        assert!(argument == "radius_function" && reason.contains("is not in 0.05..=0.1"), "{reason}");
     }
     // Steeper than was promised.
     let (argument, reason) = of(|[x, ..]| 0.05 + 0.05 * x, 0.05, 0.1, 0.001);
-    assert!(argument == "radius" && reason.contains("slope"), "{reason}");
+    assert!(argument == "radius_function" && reason.contains("slope"), "{reason}");
     // Too many samples.
     let many = mesh(meshes::join((0..100).map(|_| meshes::plane())));
     let radius = Radius::Function { at: &|_| 1e-5, smallest: 1e-5, largest: 1.0, slope: 0.0 };
-    assert_eq!(refused(&many, &Options::new(radius)).0, "radius");
+    assert_eq!(refused(&many, &Options::new(radius)).0, "radius_function");
     for cosine in [-1.1, 1.1, f64::NAN] {
         let options = Options::new(Radius::PerVertex(&[0.1; 4])).cosine(cosine);
         assert_eq!(refused(&plane, &options).0, "cosine");

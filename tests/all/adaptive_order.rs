@@ -151,7 +151,7 @@ fn every_prefix_is_a_set_of_its_rank_by_a_density_that_falls_to_a_fiftieth() {
         for density in [Density::PerVertex(&values), Density::Function { at: &ramp, largest: 1.0, slope: 0.25 }] {
             let (set, report) = sample(&mesh, &of_density(density, Scale::Count(2000.0)).seed(seed));
             assert_eq!((set.len(), report.samples), (2000, 2000));
-            assert!(report.coverage.unwrap() <= DEFAULT_QUOTIENT * report.radius * (1.0 + 1e-6));
+            assert!(report.covering_radius.unwrap() <= DEFAULT_QUOTIENT * report.radius * (1.0 + 1e-6));
             assert_eq!(report.accepted + report.conflicts, report.darts);
             check_ranks(&set, &report, -1.0);
             check_cover(&mesh, &set, &report, DEFAULT_QUOTIENT, &field, -1.0);
@@ -221,7 +221,7 @@ fn radii_of_vertices_and_of_a_function_end_with_a_set_of_these_radii() {
         for quotient in [DEFAULT_QUOTIENT, 1.4] {
             let options = Options::new(how).order(Order::Progressive).seed(8).quotient(quotient);
             let (set, report) = sample(&torus, &options);
-            assert_eq!((report.radius, report.coverage), (1.0, Some(1.0)));
+            assert_eq!((report.radius, report.covering_radius), (1.0, Some(1.0)));
             assert!(set.len() > 700, "{}", set.len());
             assert_eq!(oracle::wrong_radius(&torus, &field, &set, &set.radii), None);
             check_ranks(&set, &report, -1.0);

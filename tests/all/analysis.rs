@@ -238,9 +238,9 @@ fn bad_arguments_are_refused_by_name() {
     let domain = unit_square(Boundary::Periodic);
     let none = Domain { max: [1.0, 0.0], ..domain };
     for points in [[[1.0, 0.5]], [[0.5, f32::NAN]]] {
-        assert_eq!(argument(smallest_distance_2d(&context(), &domain, &points, None)), "xy");
-        assert_eq!(argument(covering_radius_2d(&context(), &domain, &points, None)), "xy");
-        assert_eq!(argument(triangle_statistics(&context(), &domain, &points, None).map(|s| s.obtuse)), "xy");
+        assert_eq!(argument(smallest_distance_2d(&context(), &domain, &points, None)), "positions");
+        assert_eq!(argument(covering_radius_2d(&context(), &domain, &points, None)), "positions");
+        assert_eq!(argument(triangle_statistics(&context(), &domain, &points, None).map(|s| s.obtuse)), "positions");
     }
     assert_eq!(argument(covering_radius_2d(&context(), &none, &[], None)), "domain_max");
     let infinite = [[0.0, f32::INFINITY, 0.0]];

@@ -168,9 +168,9 @@ fn bad_arguments_are_refused_by_name() {
             Error::InvalidArgument { argument, .. } => argument,
             other => panic!("{other}"),
         };
-    assert_eq!(refused(&[], 1.0, 5), "xy");
-    assert_eq!(refused(&points[..1], 1.0, 5), "xy");
-    assert_eq!(refused(&[[0.5, 1.5]; 2], 1.0, 5), "xy");
+    assert_eq!(refused(&[], 1.0, 5), "positions");
+    assert_eq!(refused(&points[..1], 1.0, 5), "positions");
+    assert_eq!(refused(&[[0.5, 1.5]; 2], 1.0, 5), "positions");
     for reach in [0.0, -1.0, f64::NAN, f64::INFINITY, 5.0] {
         assert_eq!(refused(&points, reach, 5), "reach");
     }

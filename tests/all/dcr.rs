@@ -84,7 +84,11 @@ fn a_hundred_steps_are_enough_for_any_set() {
             let (relaxed, report) = run(&options, &start);
             assert_eq!(relaxed::fault(&options.domain, &relaxed, &report), None, "{options:?}");
             assert!(report.iterations <= 100 && report.motion < 0.01, "{report:?}");
-            assert!(report.rho >= rho && report.coverage <= coverage, "{boundary:?}, {}: {report:?}", start.len());
+            assert!(
+                report.rho >= rho && report.relative_covering_radius <= coverage,
+                "{boundary:?}, {}: {report:?}",
+                start.len()
+            );
         }
     }
 }
@@ -97,7 +101,11 @@ fn nearest_neighbours_raise_rho_without_holes() {
             let (relaxed, report) = run(&options, &start);
             assert_eq!(relaxed::fault(&options.domain, &relaxed, &report), None, "{options:?}");
             assert!(report.iterations <= 100, "{report:?}");
-            assert!(report.rho >= 0.905 && report.coverage <= 0.9, "{boundary:?}, {}: {report:?}", start.len());
+            assert!(
+                report.rho >= 0.905 && report.relative_covering_radius <= 0.9,
+                "{boundary:?}, {}: {report:?}",
+                start.len()
+            );
         }
     }
 }
@@ -233,7 +241,7 @@ fn a_hexagonal_lattice_rests() {
         let slack = if options.method == Method::Momentum { 0.01 } else { 0.0 };
         assert!(relaxed.iter().zip(&lattice).all(|(&a, &b)| distance(&domain, a, b) <= slack));
         assert!(report.stopped == Stopped::Converged && report.motion <= slack, "{report:?}");
-        assert!((report.coverage - 1.0 / 3f64.sqrt()).abs() < 1e-5 + slack, "{report:?}");
+        assert!((report.relative_covering_radius - 1.0 / 3f64.sqrt()).abs() < 1e-5 + slack, "{report:?}");
         assert!((report.rho - 1.0).abs() < 1e-5 + slack, "{report:?}");
     }
 }
@@ -316,7 +324,7 @@ fn coincident_and_collinear_points_fill_the_domain() {
     for options in momentum_cases() {
         for (number, set) in sets.iter().enumerate() {
             let (relaxed, report) = run(&options, set);
-            assert!(report.rho > 0.8 && report.coverage < 1.0, "set {number}, {options:?}: {report:?}");
+            assert!(report.rho > 0.8 && report.relative_covering_radius < 1.0, "set {number}, {options:?}: {report:?}");
             assert!(roundness(&relaxed) > 0.8, "set {number}, {options:?}");
         }
     }
@@ -380,9 +388,9 @@ fn progress_grows_and_a_call_can_be_cancelled() {
                 let (same, _) = run(&options.max_iterations(report.iterations), &start);
                 assert_eq!(relaxed, same);
                 assert!(Some(report.iterations) > iterations, "{report:?}");
-                assert!(report.coverage < coverage, "{report:?}");
+                assert!(report.relative_covering_radius < coverage, "{report:?}");
                 iterations = Some(report.iterations);
-                coverage = if limit == 0.0 { report.coverage } else { coverage };
+                coverage = if limit == 0.0 { report.relative_covering_radius } else { coverage };
             }
             assert_eq!(iterations, Some(20));
         }
@@ -401,7 +409,7 @@ fn bad_arguments_are_refused_by_name() {
     for options in all_cases() {
         for bad in [[1.0, 0.5], [0.5, -1e-30], [f32::NAN, 0.5], [0.5, f32::INFINITY]] {
             let (argument, reason) = refusal(options, &[start[0], start[1], bad]);
-            assert_eq!(argument, "xy");
+            assert_eq!(argument, "positions");
             assert!(reason.contains("point 2") && reason.contains(&format!("({}, {})", bad[0], bad[1])), "{reason}");
         }
     }

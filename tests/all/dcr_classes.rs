@@ -34,7 +34,9 @@ fn of_class(points: &[[f32; 2]], classes: &[u32], class: u32) -> Vec<[f32; 2]> {
 
 /// The lowest rho and the highest coverage of the classes.
 fn worst(classes: &[ClassReport]) -> [f64; 2] {
-    classes.iter().fold([f64::INFINITY, 0.0], |[rho, coverage], of| [rho.min(of.rho), coverage.max(of.coverage)])
+    classes
+        .iter()
+        .fold([f64::INFINITY, 0.0], |[rho, coverage], of| [rho.min(of.rho), coverage.max(of.relative_covering_radius)])
 }
 
 /// The distance from the points of a place of a lattice, corners and sides among them, that is farthest from them.
@@ -62,14 +64,24 @@ fn maximal_sets_get_more_even_as_a_whole_and_by_class() {
         let ([rho_before, coverage_before], [rho, coverage]) = (worst(&each_before), worst(&each));
         let said = format!("{own:?}, {boundary:?}: {before:?}, {report:?}, {each:?}");
         // Before, gaps of the union and of the classes are as wide as the other classes left them.
-        assert!(report.coverage < before.coverage - 0.05 && coverage < coverage_before - 0.15, "{said}");
+        assert!(
+            report.relative_covering_radius < before.relative_covering_radius - 0.05
+                && coverage < coverage_before - 0.15,
+            "{said}"
+        );
         assert!(report.rho > before.rho - 0.04 && rho > rho_before - 0.02, "{said}");
         match boundary {
             Boundary::Periodic => {
-                assert!(report.rho > 0.72 && report.coverage < 0.82 && rho > 0.7 && coverage < 0.8, "{said}")
+                assert!(
+                    report.rho > 0.72 && report.relative_covering_radius < 0.82 && rho > 0.7 && coverage < 0.8,
+                    "{said}"
+                )
             }
             Boundary::Bounded => {
-                assert!(report.rho > 0.65 && report.coverage < 0.9 && rho > 0.68 && coverage < 0.85, "{said}")
+                assert!(
+                    report.rho > 0.65 && report.relative_covering_radius < 0.9 && rho > 0.68 && coverage < 0.85,
+                    "{said}"
+                )
             }
         }
     }
@@ -92,7 +104,7 @@ fn any_start_ends_about_as_even() {
                 let (_, report, each) = run(&options(boundary), &points, &classes);
                 let [rho, coverage] = worst(&each);
                 let lowest = rho.min(report.rho);
-                let highest = coverage.max(report.coverage);
+                let highest = coverage.max(report.relative_covering_radius);
                 assert!(lowest > 0.62 && highest < 0.91, "{boundary:?}, {count} classes, {name}: {report:?}, {each:?}");
             }
         }
@@ -115,13 +127,13 @@ fn reports_are_those_of_each_set_by_itself() {
                 assert!((smallest / rho - 1.0).abs() < 1e-6, "{rho}, {smallest}");
                 assert!(farthest <= coverage * 1.00001 && farthest > 0.95 * coverage, "{coverage}, {farthest}");
             };
-            check(&relaxed, report.rho, report.coverage);
+            check(&relaxed, report.rho, report.relative_covering_radius);
             for (class, of) in (0..).zip(&each) {
                 let own = of_class(&relaxed, &classes, class);
                 assert_eq!(of.count, own.len());
                 match own.len() {
-                    0 => assert!(of.rho.is_infinite() && of.coverage.is_infinite()),
-                    _ => check(&own, of.rho, of.coverage),
+                    0 => assert!(of.rho.is_infinite() && of.relative_covering_radius.is_infinite()),
+                    _ => check(&own, of.rho, of.relative_covering_radius),
                 }
             }
         }

@@ -18,7 +18,7 @@ fn is_as_promised(count: usize, seed: u64, boundary: Boundary) -> (bool, Report)
     let said = format!("seed {seed}, {count} points, {boundary:?}: {report:?}");
     assert_eq!(relaxed::fault(&domain, &relaxed, &report), None, "{said}");
     let is_converged = report.stopped == Stopped::Converged;
-    assert!(!is_converged || report.rho >= 0.85 - 0.002 && report.coverage <= 0.67 + 0.002, "{said}");
+    assert!(!is_converged || report.rho >= 0.85 - 0.002 && report.relative_covering_radius <= 0.67 + 0.002, "{said}");
     (is_converged, report)
 }
 

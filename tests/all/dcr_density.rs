@@ -54,7 +54,8 @@ fn a_constant_density_is_as_good_as_none() {
                 assert!((report.smallest_distance / smallest - 1.0).abs() < 1e-12);
                 assert!((report.rho * domain.hexagonal_distance(start.len()) / smallest - 1.0).abs() < 1e-6);
                 assert!(
-                    report.rho > plain.rho - 0.04 && report.coverage < plain.coverage + 0.05,
+                    report.rho > plain.rho - 0.04
+                        && report.relative_covering_radius < plain.relative_covering_radius + 0.05,
                     "{report:?} {plain:?}"
                 );
             }
@@ -76,7 +77,7 @@ fn bands_of_a_ramp_have_their_shares() {
                 let expected = 6000.0 * (ramp_left_of(to) - ramp_left_of(from));
                 assert!((found / expected - 1.0).abs() < 0.04, "{boundary:?} {band}: {found} for {expected}");
             }
-            assert!(report.rho > 0.7 && report.coverage < 0.8, "{boundary:?}: {report:?}");
+            assert!(report.rho > 0.7 && report.relative_covering_radius < 0.8, "{boundary:?}: {report:?}");
         }
     }
 }

@@ -64,7 +64,7 @@ impl<'a> Scene<'a> {
 
     /// The largest circumradius of a triangle over the unlimited spacing at its centre: of all circles through three points,
     /// or their images, without another inside.
-    fn coverage(&self, points: &[[f32; 2]]) -> f64 {
+    fn relative_covering_radius(&self, points: &[[f32; 2]]) -> f64 {
         let [width, height] = self.domain.extent();
         let image = |point: &[f32; 2], turns: [i32; 2]| -> Place {
             [0, 1].map(|axis| {
@@ -130,20 +130,20 @@ fn relaxed(domain: Domain, density: &Density, count: usize, steps: u32) -> (Vec<
 }
 
 #[test]
-fn the_report_s_rho_and_coverage_are_those_of_the_definitions() {
+fn the_report_s_rho_and_relative_covering_radius_are_those_of_the_definitions() {
     for boundary in [Boundary::Periodic, Boundary::Bounded] {
         for (name, density) in DENSITIES {
             for steps in [12, 100] {
                 let domain = unit_square(boundary);
                 let (points, report) = relaxed(domain, &Density::Function(&density), 150, steps);
                 let scene = Scene::new(domain, &density, 150);
-                let (rho, coverage) = (scene.rho(&points), scene.coverage(&points));
+                let (rho, relative_covering_radius) = (scene.rho(&points), scene.relative_covering_radius(&points));
                 // At a boundary the density of half a cell of an eighth of d_max is lost.
                 let tolerance = if name == "constant" { 1e-5 } else { 0.01 };
                 assert!((report.rho / rho - 1.0).abs() < tolerance, "{boundary:?} {name}: {rho}, {report:?}");
                 assert!(
-                    (report.coverage / coverage - 1.0).abs() < tolerance,
-                    "{boundary:?} {name}: {coverage}, {report:?}"
+                    (report.relative_covering_radius / relative_covering_radius - 1.0).abs() < tolerance,
+                    "{boundary:?} {name}: {relative_covering_radius}, {report:?}"
                 );
             }
         }
@@ -151,7 +151,7 @@ fn the_report_s_rho_and_coverage_are_those_of_the_definitions() {
 }
 
 /// Where all points are farther apart than any of a set that is spread in all directions, also in a strip that is thinner
-/// than d_max. Without steps, and with a density that is constant, coverage is that of sets without one.
+/// than d_max. Without steps, and with a density that is constant, relative_covering_radius is that of sets without one.
 #[test]
 fn the_figures_of_points_in_a_row_are_those_of_the_definitions() {
     let (density, context) = (|_: Place| 1.0, Context::new(1).unwrap());
@@ -165,7 +165,10 @@ fn the_figures_of_points_in_a_row_are_those_of_the_definitions() {
             let (_, plain) = relax(&context, &options.into(), points, None).unwrap();
             let rho = Scene::new(domain, &density, points.len()).rho(points);
             assert!((report.rho / rho - 1.0).abs() < 1e-5, "{domain:?}: {rho}, {report:?}");
-            assert!((report.coverage / plain.coverage - 1.0).abs() < 1e-5, "{domain:?}: {plain:?}, {report:?}");
+            assert!(
+                (report.relative_covering_radius / plain.relative_covering_radius - 1.0).abs() < 1e-5,
+                "{domain:?}: {plain:?}, {report:?}"
+            );
         }
     }
 }
@@ -179,9 +182,11 @@ fn the_oracle_notices_points_that_are_missing_or_moved() {
     for index in [0, 100, 149] {
         let mut fewer = points.clone();
         fewer.remove(index);
-        assert!(scene.coverage(&fewer) > 1.05 * report.coverage);
+        assert!(scene.relative_covering_radius(&fewer) > 1.05 * report.relative_covering_radius);
         let mut moved = points.clone();
         moved[index] = moved[(index + 1) % 150].map(|x| x + 1e-4);
-        assert!(scene.rho(&moved) < 0.1 && scene.coverage(&moved) > 1.05 * report.coverage);
+        assert!(
+            scene.rho(&moved) < 0.1 && scene.relative_covering_radius(&moved) > 1.05 * report.relative_covering_radius
+        );
     }
 }

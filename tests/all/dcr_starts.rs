@@ -89,7 +89,7 @@ fn the_oracle_of_reports_notices_points_that_are_missing_or_moved_and_figures_th
             };
             assert!(scaled(&|report| report.rho *= factor).is_some());
             assert!(scaled(&|report| report.smallest_distance *= factor).is_some());
-            assert!(scaled(&|report| report.coverage *= factor).is_some());
+            assert!(scaled(&|report| report.relative_covering_radius *= factor).is_some());
         }
     }
 }
@@ -106,7 +106,10 @@ fn any_start_reaches_what_a_random_one_does() {
             let options = Options::new(unit_square(boundary), neighbourhood);
             for (name, start) in STARTS {
                 let report = run(&options, &points(start, &options.domain, 1500));
-                assert!(report.rho >= rho && report.coverage <= coverage, "{name}, {options:?}: {report:?}");
+                assert!(
+                    report.rho >= rho && report.relative_covering_radius <= coverage,
+                    "{name}, {options:?}: {report:?}"
+                );
             }
         }
     }
@@ -118,7 +121,10 @@ fn long_domains_are_filled_from_any_start() {
         let options = Options::new(Domain { max: [10.0, 0.1], ..unit_square(boundary) }, Neighbourhood::Delaunay);
         for (name, start) in STARTS {
             let report = run(&options, &points(start, &options.domain, 4000));
-            assert!(report.rho >= rho && report.coverage <= coverage, "{name}, {boundary:?}: {report:?}");
+            assert!(
+                report.rho >= rho && report.relative_covering_radius <= coverage,
+                "{name}, {boundary:?}: {report:?}"
+            );
         }
     }
     // Three spacings wide: no set has the figures of a plane here, but all have about the same.
@@ -126,7 +132,10 @@ fn long_domains_are_filled_from_any_start() {
         let domain = Domain { max: [100.0, 0.1], ..unit_square(Boundary::Periodic) };
         for (name, start) in STARTS {
             let report = run(&Options::new(domain, neighbourhood), &points(start, &domain, 900));
-            assert!(report.rho >= 0.7 && report.coverage <= 1.1, "{name}, {neighbourhood:?}: {report:?}");
+            assert!(
+                report.rho >= 0.7 && report.relative_covering_radius <= 1.1,
+                "{name}, {neighbourhood:?}: {report:?}"
+            );
         }
     }
 }
@@ -138,7 +147,10 @@ fn small_sets_are_spread_too() {
             let options = Options::new(unit_square(boundary), neighbourhood);
             for ((name, start), count) in STARTS.iter().flat_map(|start| [10, 30, 100].map(|count| (start, count))) {
                 let report = run(&options, &points(*start, &options.domain, count));
-                assert!(report.rho >= 0.7 && report.coverage <= 1.1, "{count} from {name}, {options:?}: {report:?}");
+                assert!(
+                    report.rho >= 0.7 && report.relative_covering_radius <= 1.1,
+                    "{count} from {name}, {options:?}: {report:?}"
+                );
             }
         }
     }
@@ -152,7 +164,10 @@ fn few_coincident_points_do_not_stay_together() {
             let mut set = sets::random_points(1000, 60);
             set[..count].fill([0.33, 0.61]);
             let report = run(&options, &set);
-            assert!(report.rho >= 0.845 && report.coverage <= 0.68, "{count}, {boundary:?}: {report:?}");
+            assert!(
+                report.rho >= 0.845 && report.relative_covering_radius <= 0.68,
+                "{count}, {boundary:?}: {report:?}"
+            );
         }
     }
 }
@@ -171,7 +186,10 @@ fn chains_of_points_do_not_jam() {
                 *place = [0.1 + 0.1 * chain + along, 0.3 + 0.07 * chain + 0.1 * chain * along].map(|x| x as f32);
             }
             let report = run(&options, &set);
-            assert!(report.rho >= 0.845 && report.coverage <= 0.68, "{chains}, {boundary:?}: {report:?}");
+            assert!(
+                report.rho >= 0.845 && report.relative_covering_radius <= 0.68,
+                "{chains}, {boundary:?}: {report:?}"
+            );
         }
     }
 }
@@ -215,7 +233,10 @@ fn a_heap_that_is_cancelled_at_once_stays() {
                 if report.iterations == 0 {
                     assert!(relaxed == points && report.rho == still.rho);
                     // Up to the displacements by which a triangulation is made unique.
-                    assert!((report.coverage / still.coverage - 1.0).abs() < 1e-5, "{report:?} {still:?}");
+                    assert!(
+                        (report.relative_covering_radius / still.relative_covering_radius - 1.0).abs() < 1e-5,
+                        "{report:?} {still:?}"
+                    );
                 }
             }
             assert!(limit > 0.0 || found.iter().all(|(_, report)| report.iterations == 0));
@@ -244,7 +265,10 @@ fn any_start_takes_on_a_density() {
             {
                 let set = points(*start, &options.domain, 1500);
                 let (relaxed, report) = relax_with_density(&context, &options, &density, &set, None).unwrap();
-                assert!(report.rho > 0.7 && report.coverage < 0.8, "{name}, {number}, {boundary:?}: {report:?}");
+                assert!(
+                    report.rho > 0.7 && report.relative_covering_radius < 0.8,
+                    "{name}, {number}, {boundary:?}: {report:?}"
+                );
                 let differences =
                     shares(&relaxed).into_iter().zip(shares(&expected)).map(|(a, b): (f64, f64)| (a - b).abs());
                 let farthest = differences.fold(0.0, f64::max);

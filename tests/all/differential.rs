@@ -245,9 +245,9 @@ fn what_has_no_differences_is_refused() {
     let refused_plane =
         |domain: &Domain, points: &[[f32; 2]]| name(plane_differences(&context(), domain, points, None));
     assert_eq!(refused_plane(&Domain { min: [2.0; 2], ..unit }, &[]), "domain_max");
-    assert_eq!(refused_plane(&unit, &[]), "xy");
-    assert_eq!(refused_plane(&unit, &[[0.5; 2]]), "xy");
-    assert_eq!(refused_plane(&unit, &[[0.5; 2], [1.5; 2]]), "xy");
+    assert_eq!(refused_plane(&unit, &[]), "positions");
+    assert_eq!(refused_plane(&unit, &[[0.5; 2]]), "positions");
+    assert_eq!(refused_plane(&unit, &[[0.5; 2], [1.5; 2]]), "positions");
     assert_eq!(refused_plane(&unit, &random_points(255, 1)), "domain");
     assert_eq!(refused_plane(&Domain { max: [3.0, 1.0], ..unit }, &random_points(500, 1)), "domain");
 

@@ -70,7 +70,7 @@ fn every_prefix_is_well_spread_around_given_samples() {
                 assert!(samples.len() > 10, "{}", samples.len());
                 let balls = balls(given, radius);
                 check(&mesh, &samples, [radius, radius], cosine, &balls);
-                assert!(samples.ranks.is_sorted_by(|a, b| a >= b) && report.coverage == Some(radius));
+                assert!(samples.ranks.is_sorted_by(|a, b| a >= b) && report.covering_radius == Some(radius));
                 for count in [1, 2, 5, samples.len() / 3, samples.len() - 1] {
                     let rank = f64::from(samples.ranks[count - 1]);
                     if rank.is_finite() {
@@ -94,7 +94,7 @@ fn counts_are_exact_around_given_samples() {
             for order in [Order::Any, Order::Progressive] {
                 let (samples, report) = sample(&mesh, &Options::by_count(count).order(order).given(given));
                 assert_eq!(samples.len(), count);
-                let bounds = [report.radius, report.coverage.unwrap()];
+                let bounds = [report.radius, report.covering_radius.unwrap()];
                 check(&mesh, &samples, bounds, -1.0, &balls(given, f64::NAN));
                 assert_eq!(samples.ranks.len(), if order == Order::Any { 0 } else { count });
             }

@@ -97,7 +97,7 @@ fn a_function_that_is_steeper_than_its_slope_is_refused() {
                 at(position)
             };
             let said = refused(&square(), Radius::Function { at: &at, smallest: 0.02, largest: 0.04, slope });
-            assert!(said.starts_with("radius: 0.0") && said.contains("slope"), "{said}");
+            assert!(said.starts_with("radius_function: 0.0") && said.contains("slope"), "{said}");
             assert!(calls.load(Ordering::Relaxed) < 400_000, "{calls:?} calls");
         }
     }
@@ -115,7 +115,7 @@ fn a_function_that_changes_its_mind_does_not_get_all_memory() {
     };
     let refused = adaptive::sample(&Context::new(1).unwrap(), &square(), &Options::new(radius), Some(&watch));
     let refused = refused.map(|(set, _)| set.radii.len());
-    assert!(matches!(refused, Err(Error::TooLarge { argument: "radius", .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::TooLarge { argument: "radius_function", .. })), "{refused:?}");
 }
 
 /// The estimate was made on a hundred thousand pieces and more, of a surface that holds a few samples.

@@ -230,9 +230,9 @@ fn a_mask_may_leave_out_everything() {
             let Report { uncovered_before, uncovered_after, .. } = report;
             assert!([uncovered_before, uncovered_after].into_iter().flatten().all(|share| share == 0.0));
             let mut counts = timeless(report);
-            assert!(counts.radius == 0.01 && counts.coverage.is_none_or(|coverage| coverage == 0.01));
+            assert!(counts.radius == 0.01 && counts.covering_radius.is_none_or(|coverage| coverage == 0.01));
             (counts.uncovered_before, counts.uncovered_after) = (None, None);
-            (counts.radius, counts.coverage) = (0.0, None);
+            (counts.radius, counts.covering_radius) = (0.0, None);
             assert_eq!(counts, Report::default());
         };
         nothing(advanced);

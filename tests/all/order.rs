@@ -48,7 +48,7 @@ fn check(mesh: &Arc<Mesh>, radius: f64, quotient: f64, seed: u64) {
     let last = f64::from(*samples.ranks.last().unwrap());
     assert!(last >= radius * (1.0 - 1e-7), "{last}");
     assert!(covers(mesh, &samples.positions, radius));
-    assert_eq!((report.radius, report.coverage, report.samples), (radius, Some(radius), samples.len() as u64));
+    assert_eq!((report.radius, report.covering_radius, report.samples), (radius, Some(radius), samples.len() as u64));
     assert_eq!(report.accepted + report.conflicts, report.darts);
 }
 
@@ -104,13 +104,13 @@ fn sets_of_fewer_samples_are_prefixes() {
         let (long, report) = sample_on(1, &mesh, of_count(3000).seed(3));
         assert_eq!((long.len(), report.samples), (3000, 3000));
         assert_eq!(report.radius, f64::from(long.ranks[2999]));
-        assert!(report.coverage.unwrap() <= QUOTIENT * report.radius * (1.0 + 1e-7));
+        assert!(report.covering_radius.unwrap() <= QUOTIENT * report.radius * (1.0 + 1e-7));
         assert_eq!(disorder(&mesh, &long, QUOTIENT, &prefixes(3000, 3)), None);
         for count in [1, 2, 3, 10, 100, 777, 2999] {
             let (short, report) = sample_on(1, &mesh, of_count(count).seed(3));
             assert!(short.len() == count && is_prefix(&short, &long), "{count}");
             let ratio = if count < Order::FIRST_COUNT { 2.0 } else { QUOTIENT };
-            assert!(report.coverage.unwrap() <= ratio * report.radius * (1.0 + 1e-7), "{report:?}");
+            assert!(report.covering_radius.unwrap() <= ratio * report.radius * (1.0 + 1e-7), "{report:?}");
         }
         // Of two radii, the levels above both are shared; those of few samples are twice as long as the next.
         for (radii, above) in [([0.08, 0.11], 2.0), ([0.04, 0.055], QUOTIENT)] {

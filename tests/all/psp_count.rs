@@ -22,7 +22,7 @@ fn check(mesh: &Arc<Mesh>, count: usize, seed: u64, loosest: f64) {
     let options = Options::by_count(count).seed(seed);
     let (samples, report) = sample_on(1, mesh, options);
     assert_eq!((samples.len(), report.samples, samples.ranks.len()), (count, count as u64, 0));
-    let (radius, coverage) = (report.radius, report.coverage.unwrap());
+    let (radius, coverage) = (report.radius, report.covering_radius.unwrap());
     assert!(count == 1 || radius > 0.0 && order_oracle::conflict(&samples, radius).is_none(), "{count}: {radius}");
     assert!(order_oracle::covers(mesh, &samples.positions, coverage), "{count}: {coverage}");
     assert!(coverage <= loosest * radius, "{count}: {}", coverage / radius);

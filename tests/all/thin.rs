@@ -197,10 +197,33 @@ fn seeds_choose_the_first_point_and_nothing_else() {
 }
 
 #[test]
+fn no_two_selected_points_are_closer_than_the_radius_of_the_selection() {
+    let context = Context::new(1).unwrap();
+    let (_, cloud, _) = clouds::<2>(500, 3).swap_remove(0);
+    let smallest = |indices: &[u32]| {
+        let pairs = indices.iter().enumerate().flat_map(|(i, &a)| indices[..i].iter().map(move |&b| (a, b)));
+        pairs.map(|(a, b)| distance(cloud[a as usize], cloud[b as usize])).fold(f64::INFINITY, f64::min)
+    };
+    for options in [
+        Options::by_count(40),
+        Options::by_count(1),
+        Options::progressive().count(70),
+        Options::progressive().radius(0.1),
+        Options::progressive(),
+    ] {
+        let selection = thin(&context, &options, &cloud, None).unwrap();
+        assert_eq!(selection.radius, smallest(&selection.indices), "{options:?}");
+    }
+    let selection = thin(&context, &Options::by_radius(0.1), &cloud, None).unwrap();
+    assert!(selection.radius == 0.1 && smallest(&selection.indices) >= 0.1);
+    assert_eq!(thin(&context, &Options::by_radius(9.0), &cloud, None).unwrap().radius, f64::INFINITY);
+}
+
+#[test]
 fn empty_clouds_are_empty_selections() {
     let context = Context::new(2).unwrap();
     for options in [Options::by_radius(1.0), Options::by_count(5), Options::progressive()] {
-        assert_eq!(thin::<2>(&context, &options, &[], None).unwrap(), Selection::default());
+        assert_eq!(thin::<2>(&context, &options, &[], None).unwrap().indices, []);
     }
 }
 

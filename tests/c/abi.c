@@ -1,4 +1,4 @@
-/* The ABI of version 0.2 on LP64: constants, sizes and offsets of structs, signatures. Structs may grow at their end; any
+/* The ABI of version 0.3 on LP64: constants, sizes and offsets of structs, signatures. Structs may grow at their end; any
    other change needs another SONAME. */
 
 #include <stddef.h>
@@ -35,7 +35,7 @@ FIELD(azulejo_kdrt_options, seed, 56);
 FIELD(azulejo_kdrt_options, progress, 64);
 FIELD(azulejo_kdrt_options, progress_user, 72);
 FIELD(azulejo_kdrt_options, count, 80);
-FIELD(azulejo_kdrt_options, measure_coverage, 88);
+FIELD(azulejo_kdrt_options, measure_covering_radius, 88);
 FIELD(azulejo_kdrt_options, order, 92);
 FIELD(azulejo_kdrt_options, quotient, 96);
 FIELD(azulejo_kdrt_options, coarsest, 104);
@@ -48,7 +48,7 @@ FIELD(azulejo_kdrt_report, struct_size, 0);
 FIELD(azulejo_kdrt_report, is_maximal, 4);
 FIELD(azulejo_kdrt_report, samples, 8);
 FIELD(azulejo_kdrt_report, radius, 16);
-FIELD(azulejo_kdrt_report, coverage, 24);
+FIELD(azulejo_kdrt_report, covering_radius, 24);
 FIELD(azulejo_kdrt_report, seconds, 32);
 
 SIZE(azulejo_maximal_options, 72);
@@ -87,8 +87,15 @@ FIELD(azulejo_thin_options, seed, 24);
 FIELD(azulejo_thin_options, progress, 32);
 FIELD(azulejo_thin_options, progress_user, 40);
 
+SIZE(azulejo_thin_report, 32);
+FIELD(azulejo_thin_report, struct_size, 0);
+FIELD(azulejo_thin_report, reserved, 4);
+FIELD(azulejo_thin_report, samples, 8);
+FIELD(azulejo_thin_report, radius, 16);
+FIELD(azulejo_thin_report, seconds, 24);
+
 SIZE(azulejo_kdrt_merge_piece, 48);
-FIELD(azulejo_kdrt_merge_piece, xy, 0);
+FIELD(azulejo_kdrt_merge_piece, positions, 0);
 FIELD(azulejo_kdrt_merge_piece, count, 8);
 FIELD(azulejo_kdrt_merge_piece, min, 16);
 FIELD(azulejo_kdrt_merge_piece, max, 32);
@@ -145,15 +152,15 @@ FIELD(azulejo_psp_report, rho, 104);
 FIELD(azulejo_psp_report, uncovered_before, 112);
 FIELD(azulejo_psp_report, uncovered_after, 120);
 FIELD(azulejo_psp_report, radius, 128);
-FIELD(azulejo_psp_report, coverage, 136);
+FIELD(azulejo_psp_report, covering_radius, 136);
 
 SIZE(azulejo_psp_adaptive_options, 128);
 FIELD(azulejo_psp_adaptive_options, struct_size, 0);
 FIELD(azulejo_psp_adaptive_options, order, 4);
 FIELD(azulejo_psp_adaptive_options, vertex_radii, 8);
 FIELD(azulejo_psp_adaptive_options, vertex_count, 16);
-FIELD(azulejo_psp_adaptive_options, radius, 24);
-FIELD(azulejo_psp_adaptive_options, radius_user, 32);
+FIELD(azulejo_psp_adaptive_options, radius_function, 24);
+FIELD(azulejo_psp_adaptive_options, radius_function_user, 32);
 FIELD(azulejo_psp_adaptive_options, smallest, 40);
 FIELD(azulejo_psp_adaptive_options, largest, 48);
 FIELD(azulejo_psp_adaptive_options, slope, 56);
@@ -196,7 +203,7 @@ FIELD(azulejo_dcr_report, reserved, 12);
 FIELD(azulejo_dcr_report, motion, 16);
 FIELD(azulejo_dcr_report, smallest_distance, 24);
 FIELD(azulejo_dcr_report, rho, 32);
-FIELD(azulejo_dcr_report, coverage, 40);
+FIELD(azulejo_dcr_report, relative_covering_radius, 40);
 
 SIZE(azulejo_density, 48);
 FIELD(azulejo_density, struct_size, 0);
@@ -205,7 +212,7 @@ FIELD(azulejo_density, values, 8);
 FIELD(azulejo_density, width, 16);
 FIELD(azulejo_density, height, 24);
 FIELD(azulejo_density, function, 32);
-FIELD(azulejo_density, user, 40);
+FIELD(azulejo_density, function_user, 40);
 
 SIZE(azulejo_mesh_density, 120);
 FIELD(azulejo_mesh_density, struct_size, 0);
@@ -213,7 +220,7 @@ FIELD(azulejo_mesh_density, at_vertices, 4);
 FIELD(azulejo_mesh_density, vertex_values, 8);
 FIELD(azulejo_mesh_density, vertex_count, 16);
 FIELD(azulejo_mesh_density, function, 24);
-FIELD(azulejo_mesh_density, user, 32);
+FIELD(azulejo_mesh_density, function_user, 32);
 FIELD(azulejo_mesh_density, largest, 40);
 FIELD(azulejo_mesh_density, slope, 48);
 FIELD(azulejo_mesh_density, image, 56);
@@ -344,16 +351,19 @@ static void signatures(void) {
     azulejo_status (*kdrt_sample)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_points **,
                                   azulejo_kdrt_report *) = azulejo_kdrt_sample;
     azulejo_status (*kdrt_sample_window)(const azulejo_context *, const azulejo_kdrt_options *, const double *,
-                                         const double *, azulejo_points **) = azulejo_kdrt_sample_window;
+                                         const double *, azulejo_points **, azulejo_kdrt_report *) =
+        azulejo_kdrt_sample_window;
     azulejo_status (*kdrt_create)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_kdrt **) =
         azulejo_kdrt_create;
     azulejo_status (*kdrt_window)(const azulejo_kdrt *, const double *, const double *, azulejo_points **) =
         azulejo_kdrt_window;
     void (*kdrt_free)(azulejo_kdrt *) = azulejo_kdrt_free;
     azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
-                                  int32_t (*)(void *, const float *, size_t), void *) = azulejo_kdrt_stream;
+                                  uint32_t (*)(void *, const float *, size_t), void *, azulejo_kdrt_report *) =
+        azulejo_kdrt_stream;
     azulejo_status (*kdrt_merge)(const azulejo_context *, const azulejo_kdrt_merge_options *,
-                                 const azulejo_kdrt_merge_piece *, size_t, const float *, size_t, azulejo_points **, azulejo_kdrt_merge_report *) =
+                                 const azulejo_kdrt_merge_piece *, size_t, size_t, const float *, size_t,
+                                 azulejo_points **, azulejo_kdrt_merge_report *) =
         azulejo_kdrt_merge;
     azulejo_status (*mesh_create)(const float *, size_t, size_t, const uint32_t *, size_t, azulejo_mesh **) =
         azulejo_mesh_create;
@@ -377,15 +387,15 @@ static void signatures(void) {
     azulejo_status (*dcr_relax)(const azulejo_context *, const azulejo_dcr_options *, const float *, size_t,
                                 azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax;
     azulejo_status (*dcr_relax_classes)(const azulejo_context *, const azulejo_dcr_options *, const float *,
-                                        const uint32_t *, size_t, uint32_t, azulejo_points **, azulejo_dcr_report *,
-                                        double *, double *) = azulejo_dcr_relax_classes;
+                                        const uint32_t *, size_t, uint32_t, double *, double *,
+                                        azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax_classes;
     azulejo_status (*dcr_surface_relax)(const azulejo_context *, const azulejo_mesh *,
                                         const azulejo_dcr_surface_options *, const uint32_t *, const float *, size_t,
                                         azulejo_points **, azulejo_dcr_surface_report *) = azulejo_dcr_surface_relax;
     azulejo_status (*dcr_remesh)(const azulejo_context *, const azulejo_mesh *, const uint32_t *, const float *, size_t,
                                  azulejo_mesh **, azulejo_dcr_remesh_report *) = azulejo_dcr_remesh;
     azulejo_status (*thin)(const azulejo_context *, const azulejo_thin_options *, const float *, size_t, uint32_t,
-                           azulejo_selection **) = azulejo_thin;
+                           azulejo_selection **, azulejo_thin_report *) = azulejo_thin;
     size_t (*selection_count)(const azulejo_selection *) = azulejo_selection_count;
     const uint32_t *(*selection_indices)(const azulejo_selection *) = azulejo_selection_indices;
     const float *(*selection_ranks)(const azulejo_selection *) = azulejo_selection_ranks;

@@ -42,8 +42,8 @@ static azulejo_psp_adaptive_options with_fading(guest *g, double base) {
     g->bad = 0;
     g->thread = pthread_self();
     g->strangers = 0;
-    options.radius = fade;
-    options.radius_user = g;
+    options.radius_function = fade;
+    options.radius_function_user = g;
     options.smallest = base;
     options.largest = 2 * base;
     options.slope = base;
@@ -83,7 +83,7 @@ static void radii_of_vertices(void) {
     azulejo_psp_report report = psp_report();
     size_t i, wrong = 0;
     CHECK(options.struct_size == sizeof options && options.cosine == -1 && options.seed == 0);
-    CHECK(options.radius == NULL && options.smallest == 0 && options.largest == 0 && options.slope == 0);
+    CHECK(options.radius_function == NULL && options.smallest == 0 && options.largest == 0 && options.slope == 0);
 
     ACCEPTED(azulejo_psp_adaptive_sample(context, cube, &options, &points, &report));
     CHECK(azulejo_points_count(points) > 100 && azulejo_points_count(points) == report.samples);
@@ -148,7 +148,7 @@ static void order(void) {
     count = azulejo_points_count(points);
     if (!CHECK(ranks != NULL && count > 100 && count == report.samples)) return;
     CHECK(same_points(points, again) && memcmp(ranks, azulejo_points_ranks(again), count * sizeof *ranks) == 0);
-    CHECK(report.radius == 1 && report.coverage == 1 && isinf(ranks[0]) && ranks[count - 1] >= 1);
+    CHECK(report.radius == 1 && report.covering_radius == 1 && isinf(ranks[0]) && ranks[count - 1] >= 1);
     for (i = 1; i < count; i++)
         for (j = 0; j < i; j++) {
             double squared = 0;
@@ -210,8 +210,8 @@ static void bad_arguments(void) {
     ADAPTIVE(INVALID, "quotient: 1.01", good, (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = 1.01));
     ADAPTIVE(INVALID, "quotient: 1.6", good, (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = 1.6));
     ADAPTIVE(INVALID, "quotient", good, (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = NAN));
-    ADAPTIVE(INVALID, "radius: is NULL", good, o.vertex_radii = NULL);
-    ADAPTIVE(INVALID, "radius: is set", good, (o.radius = fade, o.radius_user = &g));
+    ADAPTIVE(INVALID, "radius_function: is NULL", good, o.vertex_radii = NULL);
+    ADAPTIVE(INVALID, "radius_function: is set", good, (o.radius_function = fade, o.radius_function_user = &g));
     ADAPTIVE(INVALID, "vertex_radii", good, o.vertex_radii = (const float *)((const char *)corner_radii + 1));
     ADAPTIVE(INVALID, "vertex_count: 7", good, o.vertex_count = 7);
     ADAPTIVE(INVALID, "vertex_count: 0", good, o.vertex_count = 0);
@@ -232,7 +232,7 @@ static void bad_arguments(void) {
     ADAPTIVE(INVALID, "largest: 0.3 has no effect with vertex_radii", good, o.largest = 0.3);
     ADAPTIVE(INVALID, "slope: 0.5 has no effect with vertex_radii", good, o.slope = 0.5);
     ADAPTIVE(INVALID, "slope: NaN has no effect with vertex_radii", good, o.slope = NAN);
-    ADAPTIVE(INVALID, "vertex_count: 8 has no effect with radius", with_function(&g, 0), o.vertex_count = 8);
+    ADAPTIVE(INVALID, "vertex_count: 8 has no effect with radius_function", with_function(&g, 0), o.vertex_count = 8);
 
     ADAPTIVE(INVALID, "smallest", with_function(&g, 0), o.smallest = 0);
     ADAPTIVE(INVALID, "smallest", with_function(&g, 0), o.smallest = NAN);
@@ -242,17 +242,17 @@ static void bad_arguments(void) {
     ADAPTIVE(INVALID, "slope", with_function(&g, 0), o.slope = -1);
     ADAPTIVE(INVALID, "slope", with_function(&g, 0), o.slope = NAN);
     ADAPTIVE(INVALID, "slope", with_function(&g, 0), o.slope = 1e-4); /* it is steeper */
-    ADAPTIVE(INVALID, "radius: NaN", with_function(&g, NAN), 0);
+    ADAPTIVE(INVALID, "radius_function: NaN", with_function(&g, NAN), 0);
     ADAPTIVE(INVALID, "is not in", with_function(&g, 0.21), 0);
     ADAPTIVE(INVALID, "is not in", with_function(&g, -0.1), 0);
     ADAPTIVE(INVALID, "is not in", with_function(&g, 1e-300), 0);
-    ADAPTIVE(INVALID, "radius: inf", with_function(&g, INFINITY), 0);
+    ADAPTIVE(INVALID, "radius_function: inf", with_function(&g, INFINITY), 0);
 #undef ADAPTIVE
     CHECK(points == UNTOUCHED);
     CHECK(memcmp(&report, &before, sizeof report) == 0);
 }
 
-static int32_t stop(void *user, double done) { return done >= *(double *)user; }
+static uint32_t stop(void *user, double done) { return done >= *(double *)user; }
 
 static void cancelled(void) {
     azulejo_psp_adaptive_options options = with_vertices();

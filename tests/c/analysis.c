@@ -83,6 +83,10 @@ static void spectra(void) {
     const azulejo_spectrum *both[2];
     azulejo_spectrum_report report = spectrum_report();
     azulejo_annulus annuli[200];
+    struct {
+        azulejo_annulus known;
+        uint64_t later;
+    } wide[2];
     size_t count = 0, again = 0, i, k;
 
     ACCEPTED(azulejo_spectrum_create(context, PLANE(*lattice, LATTICE, low, lattice_max, 0), 241, 1, &spectrum));
@@ -108,15 +112,23 @@ static void spectra(void) {
         CHECK(near(report.contrast * (i < 2 ? 1 : 2), 1, 0.1));
         CHECK(report.peak > 3 && report.peak < 25 && report.effective_nyquist >= 0 && report.effective_nyquist < 0.1);
         CHECK(report.oscillation >= 0 && report.oscillation < 1 && report.reserved == 0);
-        ACCEPTED(azulejo_spectrum_radial(of, 0.1, annuli, COUNT_OF(annuli), &count));
+        ACCEPTED(azulejo_spectrum_radial(of, 0.1, annuli, COUNT_OF(annuli), sizeof(azulejo_annulus), &count));
         CHECK(count > 60 && count < COUNT_OF(annuli));
         for (k = 5; k < count; k++) CHECK(near(annuli[k].power, 1, 0.35) && annuli[k].count > 20);
     }
-    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, NULL, 0, &again));
+    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, NULL, 0, sizeof(azulejo_annulus), &again));
     CHECK(again == count);
     annuli[1].count = 77;
-    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, annuli, 1, &again));
+    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, annuli, 1, sizeof(azulejo_annulus), &again));
     CHECK(again == count && annuli[1].count == 77);
+    REFUSED(INVALID, "annulus_size: 24", azulejo_spectrum_radial(mean, 0.1, annuli, 1, sizeof *annuli - 8, &again));
+    /* Elements of a later version: the field that is not known here stays. */
+    memset(wide, 0x55, sizeof wide);
+    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, &wide->known, 2, sizeof *wide, &again));
+    ACCEPTED(azulejo_spectrum_radial(mean, 0.1, annuli, 2, sizeof *annuli, &again));
+    for (i = 0; i < 2; i++) {
+        CHECK(memcmp(&wide[i].known, &annuli[i], sizeof *annuli) == 0 && wide[i].later == 0x5555555555555555u);
+    }
     /* A small one does not reach far enough. */
     azulejo_spectrum_free(other);
     ACCEPTED(azulejo_spectrum_create(context, PLANE(*noise, RANDOM, low, high, 1), 16, 1, &other));
@@ -280,10 +292,10 @@ static void refused_spectra(void) {
     REFUSED(INVALID, "spectra: [0]", azulejo_spectrum_mean(none, 1, &mean));
     REFUSED(INVALID, "periodograms", azulejo_spectrum_mean(none, 0, &mean));
     REFUSED(TOO_LARGE, "count", azulejo_spectrum_mean(none, SIZE_MAX, &mean));
-    REFUSED(INVALID, "spectrum", azulejo_spectrum_radial(NULL, 0.1, &annulus, 1, &count));
-    REFUSED(INVALID, "width", azulejo_spectrum_radial(spectrum, 0, &annulus, 1, &count));
-    REFUSED(INVALID, "annuli", azulejo_spectrum_radial(spectrum, 0.1, NULL, 1, &count));
-    REFUSED(INVALID, "out_count", azulejo_spectrum_radial(spectrum, 0.1, &annulus, 1, NULL));
+    REFUSED(INVALID, "spectrum", azulejo_spectrum_radial(NULL, 0.1, &annulus, 1, sizeof(azulejo_annulus), &count));
+    REFUSED(INVALID, "width", azulejo_spectrum_radial(spectrum, 0, &annulus, 1, sizeof(azulejo_annulus), &count));
+    REFUSED(INVALID, "annuli", azulejo_spectrum_radial(spectrum, 0.1, NULL, 1, sizeof(azulejo_annulus), &count));
+    REFUSED(INVALID, "out_count", azulejo_spectrum_radial(spectrum, 0.1, &annulus, 1, sizeof(azulejo_annulus), NULL));
     REFUSED(INVALID, "spectrum", azulejo_spectrum_measure(NULL, 0.1, 0, 1, &report));
     REFUSED(INVALID, "width", azulejo_spectrum_measure(spectrum, NAN, 0, 1, &report));
     REFUSED(INVALID, "low", azulejo_spectrum_measure(spectrum, 0.1, NAN, 1, &report));

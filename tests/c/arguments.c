@@ -87,7 +87,7 @@ static void kdrt(void) {
 #undef KDRT
 }
 
-static int32_t never_visited(void *user, const float *xy, size_t count) {
+static uint32_t never_visited(void *user, const float *xy, size_t count) {
     (void)xy, (void)count;
     ++*(int *)user;
     return 0;
@@ -98,23 +98,23 @@ static void kdrt_windows(void) {
     azulejo_kdrt_options good = kdrt_options(0.1);
     azulejo_points *out = UNTOUCHED;
     misaligned = (const double *)((const char *)low + 1);
-    REFUSED(INVALID, "context", azulejo_kdrt_sample_window(NULL, &good, low, high, &out));
-    REFUSED(INVALID, "options", azulejo_kdrt_sample_window(context, NULL, low, high, &out));
-    REFUSED(INVALID, "window_min: is NULL", azulejo_kdrt_sample_window(context, &good, NULL, high, &out));
-    REFUSED(INVALID, "window_max: is NULL", azulejo_kdrt_sample_window(context, &good, low, NULL, &out));
-    REFUSED(INVALID, "window_min", azulejo_kdrt_sample_window(context, &good, misaligned, high, &out));
-    REFUSED(INVALID, "window_max", azulejo_kdrt_sample_window(context, &good, low, misaligned, &out));
-    REFUSED(INVALID, "out", azulejo_kdrt_sample_window(context, &good, low, high, NULL));
-    REFUSED(INVALID, "window_max", azulejo_kdrt_sample_window(context, &good, low, low, &out));
-    REFUSED(INVALID, "window_max: [1] is 0.5", azulejo_kdrt_sample_window(context, &good, low, flat, &out));
-    REFUSED(INVALID, "window_max: [0] is 0.25", azulejo_kdrt_sample_window(context, &good, high, low, &out));
+    REFUSED(INVALID, "context", azulejo_kdrt_sample_window(NULL, &good, low, high, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample_window(context, NULL, low, high, &out, NULL));
+    REFUSED(INVALID, "window_min: is NULL", azulejo_kdrt_sample_window(context, &good, NULL, high, &out, NULL));
+    REFUSED(INVALID, "window_max: is NULL", azulejo_kdrt_sample_window(context, &good, low, NULL, &out, NULL));
+    REFUSED(INVALID, "window_min", azulejo_kdrt_sample_window(context, &good, misaligned, high, &out, NULL));
+    REFUSED(INVALID, "window_max", azulejo_kdrt_sample_window(context, &good, low, misaligned, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample_window(context, &good, low, high, NULL, NULL));
+    REFUSED(INVALID, "window_max", azulejo_kdrt_sample_window(context, &good, low, low, &out, NULL));
+    REFUSED(INVALID, "window_max: [1] is 0.5", azulejo_kdrt_sample_window(context, &good, low, flat, &out, NULL));
+    REFUSED(INVALID, "window_max: [0] is 0.25", azulejo_kdrt_sample_window(context, &good, high, low, &out, NULL));
 
 #define WINDOW(status, part, change)                                                 \
     do {                                                                             \
         azulejo_kdrt_options o = good;                                               \
         double min[2] = {0.25, 0.5}, max[2] = {0.75, 1};                             \
         (void)(change);                                                              \
-        REFUSED(status, part, azulejo_kdrt_sample_window(context, &o, min, max, &out)); \
+        REFUSED(status, part, azulejo_kdrt_sample_window(context, &o, min, max, &out, NULL)); \
     } while (0)
     WINDOW(INVALID, "window_min: [0]", min[0] = NAN);
     WINDOW(INVALID, "window_min: [1]", min[1] = NAN);
@@ -140,14 +140,14 @@ static void kdrt_windows(void) {
 static void kdrt_streams(void) {
     azulejo_kdrt_options good = kdrt_options(0.1);
     int visits = 0;
-    REFUSED(INVALID, "context", azulejo_kdrt_stream(NULL, &good, never_visited, &visits));
-    REFUSED(INVALID, "options", azulejo_kdrt_stream(context, NULL, never_visited, &visits));
-    REFUSED(INVALID, "visit: is NULL", azulejo_kdrt_stream(context, &good, NULL, &visits));
+    REFUSED(INVALID, "context", azulejo_kdrt_stream(NULL, &good, never_visited, &visits, NULL));
+    REFUSED(INVALID, "options", azulejo_kdrt_stream(context, NULL, never_visited, &visits, NULL));
+    REFUSED(INVALID, "visit: is NULL", azulejo_kdrt_stream(context, &good, NULL, &visits, NULL));
 #define STREAM(status, part, change)                                                   \
     do {                                                                               \
         azulejo_kdrt_options o = good;                                                 \
         (void)(change);                                                                \
-        REFUSED(status, part, azulejo_kdrt_stream(context, &o, never_visited, &visits)); \
+        REFUSED(status, part, azulejo_kdrt_stream(context, &o, never_visited, &visits, NULL)); \
     } while (0)
     STREAM(INVALID, "radius", o.radius = 0);
     STREAM(INVALID, "radius: 1e-7 is below", o.radius = 1e-7);
@@ -162,14 +162,14 @@ static void kdrt_streams(void) {
 static void maximal(void) {
     azulejo_maximal_options good = maximal_options(0.1);
     azulejo_points *out = UNTOUCHED;
-    REFUSED(INVALID, "context", azulejo_maximal_sample(NULL, &good, &out));
-    REFUSED(INVALID, "options", azulejo_maximal_sample(context, NULL, &out));
-    REFUSED(INVALID, "out", azulejo_maximal_sample(context, &good, NULL));
+    REFUSED(INVALID, "context", azulejo_maximal_sample(NULL, &good, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_maximal_sample(context, NULL, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_maximal_sample(context, &good, NULL, NULL));
     CHECK(out == UNTOUCHED);
 
 #define MAXIMAL(status, part, change)                                              \
     REFUSED_OPTION(azulejo_maximal_options o = good, status, part, change, \
-                   azulejo_maximal_sample(context, &o, &points))
+                   azulejo_maximal_sample(context, &o, &points, NULL))
     MAXIMAL(INVALID, "radius", o.radius = 0);
     MAXIMAL(INVALID, "radius", o.radius = NAN);
     MAXIMAL(INVALID, "domain_min", o.domain_min[0] = NAN);
@@ -320,8 +320,8 @@ static void dcr(void) {
 
     REFUSED(INVALID, "context", azulejo_dcr_relax(NULL, &good, xy, 4, &out, &report));
     REFUSED(INVALID, "options", azulejo_dcr_relax(context, NULL, xy, 4, &out, &report));
-    REFUSED(INVALID, "xy", azulejo_dcr_relax(context, &good, NULL, 4, &out, &report));
-    REFUSED(INVALID, "xy", azulejo_dcr_relax(context, &good, (float *)((char *)xy + 2), 2, &out, &report));
+    REFUSED(INVALID, "positions", azulejo_dcr_relax(context, &good, NULL, 4, &out, &report));
+    REFUSED(INVALID, "positions", azulejo_dcr_relax(context, &good, (float *)((char *)xy + 2), 2, &out, &report));
     REFUSED(INVALID, "out", azulejo_dcr_relax(context, &good, xy, 4, NULL, &report));
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_relax(context, &good, xy, SIZE_MAX, &out, &report));
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_dcr_relax(context, &good, xy, SIZE_MAX / 8 + 2, &out, &report));
@@ -369,10 +369,10 @@ static void dcr(void) {
     DCR("distribution: 1 has no effect", o.distribution = AZULEJO_DISTRIBUTION_AVERAGE);
     DCR("visits: 1 has no effect", o.visits = AZULEJO_VISITS_ONE_END);
     DCR("convergence: 1 has no effect", o.convergence = AZULEJO_CONVERGENCE_VARIANCE);
-    DCR("xy", xy[3] = NAN);
-    DCR("xy", xy[3] = INFINITY);
-    DCR("xy", xy[3] = 1); /* the upper boundary belongs to the next period */
-    DCR("xy", xy[3] = -1e-6f);
+    DCR("positions", xy[3] = NAN);
+    DCR("positions", xy[3] = INFINITY);
+    DCR("positions", xy[3] = 1); /* the upper boundary belongs to the next period */
+    DCR("positions", xy[3] = -1e-6f);
 #undef DCR
     CHECK(out == UNTOUCHED);
     CHECK(memcmp(&report, &before, sizeof report) == 0);

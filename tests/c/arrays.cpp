@@ -174,9 +174,9 @@ void dimensions() {
 
     azulejo::Points out;
     const azulejo::Density density{{}, 0, [](const std::array<double, 2> &) { return 1.0; }};
-    CHECK(refused("xy: the set has 3 coordinates", [&] { azulejo::dcr_relax(context, {}, solid); }));
-    CHECK(refused("xy: the set has 3", [&] { azulejo::dcr_relax(context, {}, solid.positions()); }));
-    CHECK(refused("xy: the set has 3", [&] { azulejo::dcr_relax_density(context, {}, density, solid); }));
+    CHECK(refused("positions: the set has 3 coordinates", [&] { azulejo::dcr_relax(context, {}, solid); }));
+    CHECK(refused("positions: the set has 3", [&] { azulejo::dcr_relax(context, {}, solid.positions()); }));
+    CHECK(refused("positions: the set has 3", [&] { azulejo::dcr_relax_density(context, {}, density, solid); }));
     CHECK(refused("positions: the set has 3", [&] { azulejo::plane_measure(context, {solid, plane}); }));
     CHECK(refused("positions: the set has 3", [&] { azulejo::plane_smallest_distance(context, {solid}); }));
     CHECK(refused("positions: the set has 3", [&] { azulejo::plane_covering_radius(context, {solid.positions()}); }));
@@ -187,7 +187,7 @@ void dimensions() {
     azulejo::KdrtMergeOptions merging;
     merging.radius = 0.1;
     const std::array<azulejo::KdrtMergePiece, 1> pieces = {{{solid, {0, 0}, {1, 1}}}};
-    CHECK(refused("xy: the set has 3", [&] { azulejo::kdrt_merge(context, merging, pieces); }));
+    CHECK(refused("positions: the set has 3", [&] { azulejo::kdrt_merge(context, merging, pieces); }));
     CHECK(refused("fixed: the set has 3", [&] { azulejo::kdrt_merge(context, merging, {}, solid); }));
 
     CHECK(refused("positions: the set has 2", [&] { azulejo::space_smallest_distance(context, flat); }));

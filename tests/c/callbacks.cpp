@@ -105,7 +105,7 @@ void options_in_c() {
     // A C callback that was set by hand works in a C++ call.
     int told = 0;
     options.progress_user = &told;
-    options.progress = [](void *user, double) -> std::int32_t { return ++*static_cast<int *>(user), 0; };
+    options.progress = [](void *user, double) -> std::uint32_t { return ++*static_cast<int *>(user), 0; };
     CHECK(azulejo::kdrt_sample(context, options).size() > 1000 && told > 1);
 
     // An exception cannot pass C: it ends the call, and is not found by the next one.
@@ -122,9 +122,9 @@ void options_in_c() {
     CHECK(azulejo::Points(points).size() > 100);
     adaptive.set_radius([](const std::array<double, 3> &) -> double { throw 7; });
     CHECK(azulejo_psp_adaptive_sample(context.get(), mesh.get(), &adaptive, &points, nullptr) != AZULEJO_OK);
-    adaptive.radius = [](void *user, const double *) { return *static_cast<double *>(user); };
+    adaptive.radius_function = [](void *user, const double *) { return *static_cast<double *>(user); };
     double radius = 0.1;
-    adaptive.radius_user = &radius;
+    adaptive.radius_function_user = &radius;
     CHECK(azulejo::psp_adaptive_sample(context, mesh, adaptive).size() > 100);
 }
 

@@ -47,7 +47,7 @@ static void refused(void) {
     } while (0)
     NO_SET(INVALID, "radius: 0.1", o.radius = 0.1);
     NO_SET(INVALID, "count: 7", o.count = 7);
-    NO_SET(INVALID, "measure_coverage", o.measure_coverage = 1);
+    NO_SET(INVALID, "measure_covering_radius", o.measure_covering_radius = 1);
     NO_SET(INVALID, "order", o.order = AZULEJO_ORDER_PROGRESSIVE);
     NO_SET(INVALID, "quotient", o.quotient = 1.2);
     NO_SET(INVALID, "struct_size", o.struct_size = 8);
@@ -89,29 +89,29 @@ static void relaxed(void) {
     const uint32_t *const of = azulejo_points_classes(set);
     const size_t count = azulejo_points_count(set);
     relax.max_iterations = 0;
-    ACCEPTED(azulejo_dcr_relax_classes(context, &relax, xy, of, count, CLASSES + 1, &out, &before, rho[0], coverage[0]));
+    ACCEPTED(azulejo_dcr_relax_classes(context, &relax, xy, of, count, CLASSES + 1, rho[0], coverage[0], &out, &before));
     CHECK(azulejo_points_count(out) == count && memcmp(azulejo_points_positions(out), xy, count * 2 * sizeof *xy) == 0);
     azulejo_points_free(out);
     relax.max_iterations = 100;
-    ACCEPTED(azulejo_dcr_relax_classes(context, &relax, xy, of, count, CLASSES + 1, &out, &after, rho[1], coverage[1]));
+    ACCEPTED(azulejo_dcr_relax_classes(context, &relax, xy, of, count, CLASSES + 1, rho[1], coverage[1], &out, &after));
     CHECK(azulejo_points_count(out) == count && after.iterations > 50);
-    CHECK(after.coverage < before.coverage - 0.03 && after.rho > before.rho - 0.03);
+    CHECK(after.relative_covering_radius < before.relative_covering_radius - 0.03 && after.rho > before.rho - 0.03);
     for (i = 0; i < CLASSES; i++) {
         CHECK(rho[1][i] > 0.65 && rho[0][i] > 0.6 && coverage[1][i] < 0.85 && coverage[1][i] < coverage[0][i]);
     }
     CHECK(isinf(rho[1][CLASSES]) && isinf(coverage[1][CLASSES])); /* a class without points */
     azulejo_points_free(out);
-    ACCEPTED(azulejo_dcr_relax_classes(context, &relax, xy, of, count, CLASSES, &out, NULL, NULL, NULL));
+    ACCEPTED(azulejo_dcr_relax_classes(context, &relax, xy, of, count, CLASSES, NULL, NULL, &out, NULL));
     azulejo_points_free(out);
     out = UNTOUCHED;
 #define NO_SET(status, part, ...) \
     do {                          \
-        REFUSED(status, part, azulejo_dcr_relax_classes(__VA_ARGS__, &out, NULL, NULL, NULL)); \
+        REFUSED(status, part, azulejo_dcr_relax_classes(__VA_ARGS__, NULL, NULL, &out, NULL)); \
         CHECK(out == UNTOUCHED);  \
     } while (0)
     NO_SET(INVALID, "context", NULL, &relax, xy, of, count, CLASSES);
     NO_SET(INVALID, "options", context, NULL, xy, of, count, CLASSES);
-    NO_SET(INVALID, "xy", context, &relax, NULL, of, count, CLASSES);
+    NO_SET(INVALID, "positions", context, &relax, NULL, of, count, CLASSES);
     NO_SET(INVALID, "classes", context, &relax, xy, NULL, count, CLASSES);
     NO_SET(INVALID, "classes: [", context, &relax, xy, of, count, CLASSES - 1);
     NO_SET(INVALID, "class_count: 0", context, &relax, xy, of, count, 0);

@@ -81,7 +81,7 @@ typedef struct {
     int calls, last;
 } stop;
 
-static int32_t stop_there(void *user, double done) {
+static uint32_t stop_there(void *user, double done) {
     stop *s = user;
     CHECK(done >= 0 && done <= 1);
     CHECK(s->calls < s->last);
@@ -122,14 +122,14 @@ static void contexts_that_are_watched(void) {
     watch of_context = make_watch(2), own = make_watch(2);
     ACCEPTED(azulejo_context_watch(first, tell, &of_context, &watching));
     azulejo_context_free(first);
-    ACCEPTED(azulejo_maximal_sample(watching, &o, &points));
+    ACCEPTED(azulejo_maximal_sample(watching, &o, &points, NULL));
     CHECK(of_context.first == 0 && of_context.last == 1);
     azulejo_points_free(points);
 
     of_context = make_watch(2);
     o.progress = tell;
     o.progress_user = &own;
-    ACCEPTED(azulejo_maximal_sample(watching, &o, &points));
+    ACCEPTED(azulejo_maximal_sample(watching, &o, &points, NULL));
     CHECK(of_context.calls == 0 && own.last == 1);
     azulejo_points_free(points);
 

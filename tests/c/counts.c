@@ -57,7 +57,7 @@ static void options(void) {
 #undef COUNTED
 }
 
-static int32_t never_visited(void *user, const float *xy, size_t count) {
+static uint32_t never_visited(void *user, const float *xy, size_t count) {
     (void)xy, (void)count;
     ++*(int *)user;
     return 0;
@@ -70,10 +70,10 @@ static void windows_and_streams(void) {
     azulejo_points *out = UNTOUCHED;
     int visits = 0;
     both.count = 100;
-    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_sample_window(context, &counted, low, high, &out));
-    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_sample_window(context, &both, low, high, &out));
-    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_stream(context, &counted, never_visited, &visits));
-    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_stream(context, &both, never_visited, &visits));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_sample_window(context, &counted, low, high, &out, NULL));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_sample_window(context, &both, low, high, &out, NULL));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_stream(context, &counted, never_visited, &visits, NULL));
+    REFUSED(INVALID, "count: 100 is not 0", azulejo_kdrt_stream(context, &both, never_visited, &visits, NULL));
     CHECK(out == UNTOUCHED && visits == 0);
 }
 
@@ -84,20 +84,20 @@ static void coverage_without_a_report(void) {
     azulejo_kdrt_report report;
     azulejo_points *out = UNTOUCHED;
     int visits = 0;
-    o.measure_coverage = counted.measure_coverage = 1;
-    REFUSED(INVALID, "measure_coverage: 1, but report is NULL", azulejo_kdrt_sample(context, &o, &out, NULL));
-    REFUSED(INVALID, "measure_coverage: 1, but report is NULL", azulejo_kdrt_sample(context, &counted, &out, NULL));
-    REFUSED(INVALID, "measure_coverage: 1", azulejo_kdrt_sample_window(context, &o, low, high, &out));
-    REFUSED(INVALID, "measure_coverage: 1", azulejo_kdrt_stream(context, &o, never_visited, &visits));
+    o.measure_covering_radius = counted.measure_covering_radius = 1;
+    REFUSED(INVALID, "measure_covering_radius: 1, but report is NULL", azulejo_kdrt_sample(context, &o, &out, NULL));
+    REFUSED(INVALID, "measure_covering_radius: 1, but report is NULL", azulejo_kdrt_sample(context, &counted, &out, NULL));
+    REFUSED(INVALID, "measure_covering_radius: 1", azulejo_kdrt_sample_window(context, &o, low, high, &out, NULL));
+    REFUSED(INVALID, "measure_covering_radius: 1", azulejo_kdrt_stream(context, &o, never_visited, &visits, NULL));
     UNWRITTEN(report);
-    o.measure_coverage = 2;
-    REFUSED(INVALID, "measure_coverage: 2", azulejo_kdrt_sample(context, &o, &out, &report));
-    REFUSED(INVALID, "measure_coverage: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out));
-    o.measure_coverage = 0;
+    o.measure_covering_radius = 2;
+    REFUSED(INVALID, "measure_covering_radius: 2", azulejo_kdrt_sample(context, &o, &out, &report));
+    REFUSED(INVALID, "measure_covering_radius: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out, NULL));
+    o.measure_covering_radius = 0;
     o.order = 2;
     REFUSED(INVALID, "order: 2", azulejo_kdrt_sample(context, &o, &out, &report));
-    REFUSED(INVALID, "order: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out));
-    REFUSED(INVALID, "order: 2", azulejo_kdrt_stream(context, &o, never_visited, &visits));
+    REFUSED(INVALID, "order: 2", azulejo_kdrt_sample_window(context, &o, low, high, &out, NULL));
+    REFUSED(INVALID, "order: 2", azulejo_kdrt_stream(context, &o, never_visited, &visits, NULL));
     CHECK(out == UNTOUCHED && visits == 0);
 }
 

@@ -42,7 +42,7 @@ static azulejo_density with_function(guest *g, double bad) {
     g->thread = pthread_self();
     g->strangers = g->calls = 0;
     density.function = ramp;
-    density.user = g;
+    density.function_user = g;
     return density;
 }
 
@@ -64,7 +64,7 @@ static void an_image(void) {
     azulejo_points *start = NULL, *same = NULL, *points = NULL, *again = NULL;
     azulejo_dcr_report report = dcr_report();
     CHECK(density.struct_size == sizeof density && density.reserved == 0);
-    CHECK(density.function == NULL && density.user == NULL);
+    CHECK(density.function == NULL && density.function_user == NULL);
     ACCEPTED(azulejo_dcr_scatter(context, &options, &density, COUNT, &start));
     ACCEPTED(azulejo_dcr_scatter(one, &options, &density, COUNT, &same));
     CHECK(azulejo_points_count(start) == COUNT && same_points(start, same));
@@ -72,7 +72,7 @@ static void an_image(void) {
     ACCEPTED(azulejo_dcr_relax_density(context, &options, &density, xy, COUNT, &points, &report));
     ACCEPTED(azulejo_dcr_relax_density(one, &options, &density, xy, COUNT, &again, NULL));
     CHECK(same_points(points, again));
-    CHECK(report.rho > 0.7 && report.rho < 1.1 && report.coverage < 1 && report.iterations > 0);
+    CHECK(report.rho > 0.7 && report.rho < 1.1 && report.relative_covering_radius < 1 && report.iterations > 0);
     /* Linear between the centres of the pixels: the left half has an eighth. */
     CHECK(fabs(share_left_of(points, 0.5) - 0.125) < 0.01);
     CHECK(share_left_of(points, 1.0 / 6) < 0.005);
@@ -131,7 +131,7 @@ static void bad_arguments(void) {
     REFUSED(INVALID, "context", RELAX(NULL, &options, &good, xy, 4, &points));
     REFUSED(INVALID, "options", RELAX(context, NULL, &good, xy, 4, &points));
     REFUSED(INVALID, "density", RELAX(context, &options, NULL, xy, 4, &points));
-    REFUSED(INVALID, "xy", RELAX(context, &options, &good, NULL, 4, &points));
+    REFUSED(INVALID, "positions", RELAX(context, &options, &good, NULL, 4, &points));
     REFUSED(INVALID, "out", RELAX(context, &options, &good, xy, 4, NULL));
     REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", RELAX(context, &options, &good, xy, SIZE_MAX, &points));
     REFUSED(INVALID, "context", azulejo_dcr_scatter(NULL, &options, &good, 4, &points));
@@ -153,7 +153,7 @@ static void bad_arguments(void) {
     DENSITY(INVALID, "struct_size", good, d.struct_size = 0);
     DENSITY(INVALID, "reserved: 1", good, d.reserved = 1);
     DENSITY(INVALID, "function: is NULL", good, d.values = NULL);
-    DENSITY(INVALID, "function: is set", good, (d.function = ramp, d.user = &g));
+    DENSITY(INVALID, "function: is set", good, (d.function = ramp, d.function_user = &g));
     DENSITY(INVALID, "values", good, d.values = (const float *)((const char *)image + 1));
     DENSITY(INVALID, "width: 0", good, d.width = 0);
     DENSITY(INVALID, "height: 0", good, d.height = 0);
@@ -176,7 +176,7 @@ static void bad_arguments(void) {
     CHECK(memcmp(&report, &before, sizeof report) == 0);
 }
 
-static int32_t stop(void *user, double done) { return done >= *(double *)user; }
+static uint32_t stop(void *user, double done) { return done >= *(double *)user; }
 
 static void cancelled(void) {
     azulejo_density density = with_image();

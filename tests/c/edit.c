@@ -150,7 +150,7 @@ typedef struct {
     int refused;
 } meddler;
 
-static int32_t meddle(void *user, double done) {
+static uint32_t meddle(void *user, double done) {
     meddler *self = user;
     const azulejo_region all = ball(0, 0, 0, 9);
     (void)done;

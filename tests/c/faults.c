@@ -43,13 +43,13 @@ static azulejo_status window(const azulejo_context *context, watcher w, azulejo_
     const double low[2] = {0.1, 0.2}, high[2] = {0.7, 0.9};
     azulejo_kdrt_options o = kdrt_options(0.02);
     WATCHED(o, w);
-    return azulejo_kdrt_sample_window(context, &o, low, high, out);
+    return azulejo_kdrt_sample_window(context, &o, low, high, out, NULL);
 }
 
 static azulejo_status maximal(const azulejo_context *context, watcher w, azulejo_points **out) {
     azulejo_maximal_options o = maximal_options(0.05);
     WATCHED(o, w);
-    return azulejo_maximal_sample(context, &o, out);
+    return azulejo_maximal_sample(context, &o, out, NULL);
 }
 
 static azulejo_status merge(const azulejo_context *context, watcher w, azulejo_points **out) {
@@ -57,7 +57,7 @@ static azulejo_status merge(const azulejo_context *context, watcher w, azulejo_p
     const azulejo_kdrt_merge_piece pieces[] = {{xy, 1, {0, 0}, {0.5, 1}}, {xy + 2, 1, {0.5, 0}, {1, 1}}};
     azulejo_kdrt_merge_options o = merge_options(0.05);
     WATCHED(o, w);
-    return azulejo_kdrt_merge(context, &o, pieces, 2, NULL, 0, out, NULL);
+    return azulejo_kdrt_merge(context, &o, pieces, 2, sizeof(azulejo_kdrt_merge_piece), NULL, 0, out, NULL);
 }
 
 static azulejo_status psp(const azulejo_context *context, watcher w, azulejo_points **out) {
@@ -96,10 +96,10 @@ static const sampler samplers[] = {kdrt, counted, window, maximal, merge, psp, r
 /* Lets so many calls pass and then answers with whatever it is told to. */
 typedef struct {
     int passes, calls;
-    int32_t answer;
+    uint32_t answer;
 } stubborn;
 
-static int32_t answer(void *user, double done) {
+static uint32_t answer(void *user, double done) {
     stubborn *s = user;
     (void)done;
     return s->calls++ < s->passes ? 0 : s->answer;
@@ -107,7 +107,7 @@ static int32_t answer(void *user, double done) {
 
 /* Wherever a call is cancelled, by whatever number, it ends there and leaves the context as good as new. */
 static void cancelled_at_every_stage(const azulejo_context *context) {
-    const int32_t garbage[] = {1, -1, INT_MIN, INT_MAX, 0x5555};
+    const uint32_t garbage[] = {1, -1, INT_MIN, INT_MAX, 0x5555};
     size_t i;
     for (i = 0; i < COUNT_OF(samplers); i++) {
         azulejo_points *expected = NULL, *points;
@@ -152,8 +152,8 @@ static void radii_that_are_garbage(const azulejo_context *context) {
         azulejo_points *out = UNTOUCHED;
         azulejo_psp_adaptive_options o;
         ACCEPTED(azulejo_psp_adaptive_options_init(&o, sizeof o));
-        o.radius = garbage_radius;
-        o.radius_user = &garbage[i];
+        o.radius_function = garbage_radius;
+        o.radius_function_user = &garbage[i];
         o.smallest = 0.1;
         o.largest = 0.2;
         REFUSED(INVALID, "radius", azulejo_psp_adaptive_sample(context, cube, &o, &out, NULL));
@@ -175,7 +175,7 @@ static double even(void *user, const double *position) {
 static azulejo_psp_adaptive_options by_function(azulejo_radius_fn radius, double smallest, double largest, double slope) {
     azulejo_psp_adaptive_options o;
     ACCEPTED(azulejo_psp_adaptive_options_init(&o, sizeof o));
-    o.radius = radius;
+    o.radius_function = radius;
     o.smallest = smallest;
     o.largest = largest;
     o.slope = slope;

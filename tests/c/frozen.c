@@ -7,11 +7,11 @@
 
 #include "samples.h"
 
-typedef int32_t (*frozen_progress)(void *user, double done);
+typedef uint32_t (*frozen_progress)(void *user, double done);
 
 typedef struct {
     uint32_t struct_size;
-    int32_t boundary;
+    uint32_t boundary;
     const float *positions;
     size_t count;
     double domain_min[2], domain_max[2];
@@ -19,24 +19,24 @@ typedef struct {
 
 typedef struct {
     uint32_t struct_size;
-    int32_t boundary;
+    uint32_t boundary;
     double radius, domain_min[2], domain_max[2], leaf_size;
     uint64_t seed;
     frozen_progress progress;
     void *progress_user;
     size_t count;
-    uint32_t measure_coverage, reserved;
+    uint32_t measure_covering_radius, reserved;
 } frozen_kdrt_options;
 
 typedef struct {
     uint32_t struct_size, is_maximal;
     uint64_t samples;
-    double radius, coverage, seconds;
+    double radius, covering_radius, seconds;
 } frozen_kdrt_report;
 
 typedef struct {
     uint32_t struct_size;
-    int32_t boundary;
+    uint32_t boundary;
     double radius, domain_min[2], domain_max[2];
     uint64_t seed;
     frozen_progress progress;
@@ -55,7 +55,7 @@ typedef struct {
     double radius;
     uint64_t seed;
     uint32_t maximal;
-    int32_t priority, engine;
+    uint32_t priority, engine;
     uint32_t reserved;
     frozen_progress progress;
     void *progress_user;
@@ -71,8 +71,8 @@ typedef struct {
     uint32_t struct_size, reserved;
     const float *vertex_radii;
     size_t vertex_count;
-    double (*radius)(void *user, const double *position);
-    void *radius_user;
+    double (*radius_function)(void *user, const double *position);
+    void *radius_function_user;
     double smallest, largest, slope, cosine;
     uint64_t seed;
     frozen_progress progress;
@@ -81,9 +81,9 @@ typedef struct {
 
 typedef struct {
     uint32_t struct_size;
-    int32_t boundary;
+    uint32_t boundary;
     double domain_min[2], domain_max[2];
-    int32_t neighbourhood, method;
+    uint32_t neighbourhood, method;
     uint32_t max_iterations, reserved;
     uint64_t seed;
     double tolerance;
@@ -91,14 +91,14 @@ typedef struct {
     void *progress_user;
     double conflict_radius, attraction_radius, step, decay;
     uint32_t neighbours;
-    int32_t distribution, visits, convergence;
+    uint32_t distribution, visits, convergence;
 } frozen_dcr_options;
 
 typedef struct {
     uint32_t struct_size, iterations;
-    int32_t stopped;
+    uint32_t stopped;
     uint32_t reserved;
-    double motion, smallest_distance, rho, coverage;
+    double motion, smallest_distance, rho, relative_covering_radius;
 } frozen_dcr_report;
 
 typedef struct {
@@ -106,7 +106,7 @@ typedef struct {
     const float *values;
     size_t width, height;
     double (*function)(void *user, const double *position);
-    void *user;
+    void *function_user;
 } frozen_density;
 
 typedef struct {
@@ -119,7 +119,7 @@ typedef struct {
 
 typedef struct {
     uint32_t struct_size, iterations;
-    int32_t stopped;
+    uint32_t stopped;
     uint32_t reserved;
     double motion, smallest_distance, rho;
 } frozen_dcr_surface_report;
@@ -148,7 +148,7 @@ typedef struct {
     _Static_assert(sizeof(frozen_##name) == (size) && sizeof(azulejo_##name) >= (size), #name);           \
     _Static_assert(offsetof(frozen_##name, last) == offsetof(azulejo_##name, last), #name "." #last)
 FROZEN(plane_set, 56, domain_max);
-FROZEN(kdrt_options, 96, measure_coverage); /* order has taken the place of reserved */
+FROZEN(kdrt_options, 96, measure_covering_radius); /* order has taken the place of reserved */
 FROZEN(kdrt_report, 40, seconds);
 FROZEN(maximal_options, 72, progress_user);
 FROZEN(kdrt_merge_options, 72, progress_user);
@@ -157,8 +157,8 @@ FROZEN(psp_options, 56, progress_user);
 FROZEN(psp_report, 128, uncovered_after);
 FROZEN(psp_adaptive_options, 96, progress_user); /* order has taken the place of reserved */
 FROZEN(dcr_options, 136, convergence);
-FROZEN(dcr_report, 48, coverage);
-FROZEN(density, 48, user);
+FROZEN(dcr_report, 48, relative_covering_radius);
+FROZEN(density, 48, function_user);
 FROZEN(dcr_surface_options, 40, progress_user);
 FROZEN(dcr_surface_report, 40, rho);
 FROZEN(coverage_report, 24, gaps);
@@ -182,7 +182,7 @@ static void *at_the_edge(size_t size) {
     ACCEPTED(azulejo_##type##_init((void *)name, sizeof *name));               \
     CHECK(name->struct_size == sizeof *name)
 
-static int32_t go_on(void *user, double done) {
+static uint32_t go_on(void *user, double done) {
     *(double *)user = done;
     return 0;
 }
@@ -202,24 +202,24 @@ static void planes(void) {
     options->seed = now.seed;
     options->progress = go_on;
     options->progress_user = &done;
-    options->measure_coverage = 1;
+    options->measure_covering_radius = 1;
     ACCEPTED(azulejo_kdrt_sample(context, (void *)options, &before, (void *)report));
     ACCEPTED(azulejo_kdrt_sample(context, &now, &after, NULL));
     CHECK(done == 1 && same_points(before, after));
     CHECK(report->struct_size == sizeof *report && report->samples == azulejo_points_count(after));
     CHECK(report->is_maximal == 1 && report->radius == 0.05 && report->seconds > 0);
-    CHECK(report->coverage > 0.04 && report->coverage < 0.0500001);
+    CHECK(report->covering_radius > 0.04 && report->covering_radius < 0.0500001);
 
     done = 0;
-    options->measure_coverage = 0;
+    options->measure_covering_radius = 0;
     ACCEPTED(azulejo_kdrt_create(context, (void *)options, &plane));
     ACCEPTED(azulejo_kdrt_window(plane, options->domain_min, options->domain_max, &window));
     CHECK(done == 1 && same_points(window, after));
 
     maximal->radius = merge->radius = 0.05;
-    ACCEPTED(azulejo_maximal_sample(context, (void *)maximal, &reference));
+    ACCEPTED(azulejo_maximal_sample(context, (void *)maximal, &reference, NULL));
     CHECK(azulejo_points_count(reference) > 200);
-    ACCEPTED(azulejo_kdrt_merge(context, (void *)merge, NULL, 0, NULL, 0, &merged, (void *)merging));
+    ACCEPTED(azulejo_kdrt_merge(context, (void *)merge, NULL, 0, sizeof(azulejo_kdrt_merge_piece), NULL, 0, &merged, (void *)merging));
     CHECK(merging->inserted == azulejo_points_count(merged) && merging->kept == 0 && merging->reserved == 0);
     azulejo_points_free(before);
     azulejo_points_free(after);

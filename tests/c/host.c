@@ -9,6 +9,7 @@
 #include "check.h"
 #include "samples.h"
 
+#define GEOMETRY sizeof(azulejo_embree_geometry)
 #define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
 #define RAYS 200
 
@@ -91,7 +92,7 @@ static void hands_over(RTCDevice device, RTCScene scene, const azulejo_embree_ge
     options.iterations = 1;
     trace(scene, before);
 
-    ACCEPTED(azulejo_mesh_create_from_embree(scene, geometries, 2, &mesh));
+    ACCEPTED(azulejo_mesh_create_from_embree(scene, geometries, 2, GEOMETRY, &mesh));
     CHECK(azulejo_mesh_vertex_count(mesh) == 16 && azulejo_mesh_triangle_count(mesh) == 12);
     CHECK(memcmp(azulejo_mesh_positions(mesh), cube_positions, sizeof cube_positions) == 0);
     CHECK(memcmp(azulejo_mesh_positions(mesh) + 24, cube_positions, sizeof cube_positions) == 0);
@@ -113,17 +114,18 @@ static void hands_over(RTCDevice device, RTCScene scene, const azulejo_embree_ge
 static void refuses(RTCScene scene, const azulejo_embree_geometry *good) {
     azulejo_mesh *out = UNTOUCHED;
     azulejo_embree_geometry bad;
-    REFUSED(INVALID, "scene", azulejo_mesh_create_from_embree(NULL, good, 2, &out));
-    REFUSED(INVALID, "geometries", azulejo_mesh_create_from_embree(scene, NULL, 2, &out));
-    REFUSED(INVALID, "geometries", azulejo_mesh_create_from_embree(scene, (const void *)((const char *)good + 1), 2, &out));
-    REFUSED(INVALID, "indices", azulejo_mesh_create_from_embree(scene, NULL, 0, &out));
-    REFUSED(INVALID, "out", azulejo_mesh_create_from_embree(scene, good, 2, NULL));
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "geometry_count", azulejo_mesh_create_from_embree(scene, good, SIZE_MAX, &out));
+    REFUSED(INVALID, "scene", azulejo_mesh_create_from_embree(NULL, good, 2, GEOMETRY, &out));
+    REFUSED(INVALID, "geometry_size: 0", azulejo_mesh_create_from_embree(scene, good, 2, 0, &out));
+    REFUSED(INVALID, "geometries", azulejo_mesh_create_from_embree(scene, NULL, 2, GEOMETRY, &out));
+    REFUSED(INVALID, "geometries", azulejo_mesh_create_from_embree(scene, (const void *)((const char *)good + 1), 2, GEOMETRY, &out));
+    REFUSED(INVALID, "indices", azulejo_mesh_create_from_embree(scene, NULL, 0, GEOMETRY, &out));
+    REFUSED(INVALID, "out", azulejo_mesh_create_from_embree(scene, good, 2, GEOMETRY, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "geometry_count", azulejo_mesh_create_from_embree(scene, good, SIZE_MAX, GEOMETRY, &out));
 #define BAD(status, part, change)                                                          \
     do {                                                                                   \
         bad = good[0];                                                                     \
         change;                                                                            \
-        REFUSED(status, part, azulejo_mesh_create_from_embree(scene, &bad, 1, &out));      \
+        REFUSED(status, part, azulejo_mesh_create_from_embree(scene, &bad, 1, GEOMETRY, &out)); \
     } while (0)
     BAD(INVALID, "[0]: vertex_stride", bad.vertex_stride = 0);
     BAD(INVALID, "[0]: vertex_stride", bad.vertex_stride = 8);

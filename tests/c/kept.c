@@ -95,7 +95,7 @@ static void no_planes(void) {
     NO_PLANE(INVALID, "domain_max: [1]", o.domain_max[1] = -1);
     NO_PLANE(INVALID, "domain_min", o.domain_min[0] = -INFINITY);
     NO_PLANE(INVALID, "count", o.count = 100);
-    NO_PLANE(INVALID, "measure_coverage", o.measure_coverage = 1);
+    NO_PLANE(INVALID, "measure_covering_radius", o.measure_covering_radius = 1);
     NO_PLANE(INVALID, "order", o.order = 2);
     NO_PLANE(INVALID, "quotient", (o.order = AZULEJO_ORDER_PROGRESSIVE, o.quotient = 1.6));
     NO_PLANE(INVALID, "coarsest", (o.order = AZULEJO_ORDER_PROGRESSIVE, o.coarsest = o.radius / 2));
@@ -144,7 +144,7 @@ typedef struct {
     int calls;
 } watch;
 
-static int32_t tell(void *user, double done) {
+static uint32_t tell(void *user, double done) {
     watch *w = user;
     w->last = done;
     w->calls++;
@@ -174,7 +174,7 @@ static void progress(azulejo_kdrt_options options) {
 }
 
 int main(void) {
-    const int32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
+    const uint32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
     size_t i;
     two = make_context(2);
     no_planes();

@@ -53,7 +53,7 @@ static azulejo_mesh_density by_function(guest *g, double bad) {
     g->calls = g->strangers = 0;
     g->bad = bad;
     d.function = height;
-    d.user = g;
+    d.function_user = g;
     d.largest = 1;
     d.slope = 0.75;
     d.radius = 0.02;
@@ -158,7 +158,7 @@ static void order(void) {
     ranks = azulejo_points_ranks(points);
     if (!CHECK(azulejo_points_count(points) == 3000 && ranks != NULL)) return;
     CHECK(report.samples == 3000 && report.radius == (double)ranks[2999]);
-    CHECK(report.coverage >= report.radius && report.coverage < 1.2001 * report.radius);
+    CHECK(report.covering_radius >= report.radius && report.covering_radius < 1.2001 * report.radius);
     for (i = 1; i < 3000; i++) rising += ranks[i] > ranks[i - 1];
     CHECK(rising == 0 && fabs((double)below(points, 0.5f) / 3000 - 1.0 / 6) < 0.02);
     d.count = 1234;
@@ -216,7 +216,7 @@ static void bad_densities(void) {
     DENSITY(INVALID, "count", by_vertices(), d.count = INFINITY);
     DENSITY(INVALID, "count", by_vertices(), d.count = -5);
     DENSITY(INVALID, "vertex_values: one of", by_vertices(), d.vertex_values = NULL);
-    DENSITY(INVALID, "vertex_values: one of", by_vertices(), (d.function = height, d.user = &g));
+    DENSITY(INVALID, "vertex_values: one of", by_vertices(), (d.function = height, d.function_user = &g));
     DENSITY(INVALID, "vertex_values: one of", by_image(), d.vertex_values = values);
     DENSITY(INVALID, "vertex_count", by_vertices(), d.vertex_count = 7);
     DENSITY(AZULEJO_ERROR_TOO_LARGE, "vertex_count", by_vertices(), d.vertex_count = SIZE_MAX);

@@ -86,10 +86,10 @@ static azulejo_status counted(azulejo_points **out) {
 static azulejo_status window(azulejo_points **out) {
     const double low[2] = {0.1, 0.1}, high[2] = {0.9, 0.9};
     const azulejo_kdrt_options o = kdrt_options(0.0008);
-    return azulejo_kdrt_sample_window(context, &o, low, high, out);
+    return azulejo_kdrt_sample_window(context, &o, low, high, out, NULL);
 }
 
-static int32_t ignore(void *user, const float *xy, size_t count) {
+static uint32_t ignore(void *user, const float *xy, size_t count) {
     (void)user, (void)xy, (void)count;
     return 0;
 }
@@ -97,17 +97,17 @@ static int32_t ignore(void *user, const float *xy, size_t count) {
 static azulejo_status stream(azulejo_points **out) {
     const azulejo_kdrt_options o = kdrt_options(0.0008);
     *out = NULL;
-    return azulejo_kdrt_stream(context, &o, ignore, NULL);
+    return azulejo_kdrt_stream(context, &o, ignore, NULL, NULL);
 }
 
 static azulejo_status maximal(azulejo_points **out) {
     const azulejo_maximal_options o = maximal_options(0.002);
-    return azulejo_maximal_sample(context, &o, out);
+    return azulejo_maximal_sample(context, &o, out, NULL);
 }
 
 static azulejo_status merge(azulejo_points **out) {
     const azulejo_kdrt_merge_options o = merge_options(0.002);
-    return azulejo_kdrt_merge(context, &o, NULL, 0, NULL, 0, out, NULL);
+    return azulejo_kdrt_merge(context, &o, NULL, 0, sizeof(azulejo_kdrt_merge_piece), NULL, 0, out, NULL);
 }
 
 static azulejo_status psp(azulejo_points **out) {

@@ -60,7 +60,7 @@ static void defaults(void) {
     CHECK(dcr.domain_min[0] == 0 && dcr.domain_min[1] == 0 && dcr.domain_max[0] == 1 && dcr.domain_max[1] == 1);
     CHECK(kdrt.boundary == AZULEJO_BOUNDARY_PERIODIC && dcr.boundary == AZULEJO_BOUNDARY_PERIODIC);
     CHECK(kdrt.leaf_size == 20 && kdrt.seed == 0 && kdrt.progress == NULL && kdrt.progress_user == NULL);
-    CHECK(kdrt.count == 0 && kdrt.measure_coverage == 0 && kdrt.order == AZULEJO_ORDER_ANY);
+    CHECK(kdrt.count == 0 && kdrt.measure_covering_radius == 0 && kdrt.order == AZULEJO_ORDER_ANY);
     CHECK(kdrt.quotient == 0 && kdrt.coarsest == 0);
     CHECK(kdrt.given_positions == NULL && kdrt.given_clearances == NULL && kdrt.given_count == 0);
     CHECK(merge.struct_size == sizeof merge && merge.radius == 0 && merge.seed == 0 && merge.progress == NULL);
@@ -76,9 +76,9 @@ static void defaults(void) {
     CHECK(surface.struct_size == sizeof surface && surface.max_iterations == 100 && surface.tolerance < 0);
     CHECK(surface.seed == 0 && surface.progress == NULL && surface.progress_user == NULL);
     CHECK(adaptive.struct_size == sizeof adaptive && adaptive.order == AZULEJO_ORDER_ANY && adaptive.quotient == 0 && adaptive.vertex_radii == NULL);
-    CHECK(adaptive.vertex_count == 0 && adaptive.radius == NULL && adaptive.slope == 0 && adaptive.cosine == -1);
+    CHECK(adaptive.vertex_count == 0 && adaptive.radius_function == NULL && adaptive.slope == 0 && adaptive.cosine == -1);
     CHECK(density.struct_size == sizeof density && density.values == NULL && density.width == 0 && density.height == 0);
-    CHECK(density.function == NULL && density.user == NULL && density.reserved == 0);
+    CHECK(density.function == NULL && density.function_user == NULL && density.reserved == 0);
     CHECK(set.struct_size == sizeof set && set.positions == NULL && set.count == 0);
     CHECK(set.domain_min[0] == 0 && set.domain_min[1] == 0 && set.domain_max[0] == 1 && set.domain_max[1] == 1);
     CHECK(set.boundary == AZULEJO_BOUNDARY_PERIODIC);
@@ -122,8 +122,8 @@ static void refused_sizes(void) {
     for (i = 0; i < COUNT_OF(sizes); i++) {
         kdrt.struct_size = maximal.struct_size = merge.struct_size = psp.struct_size = dcr.struct_size = sizes[i];
         REFUSED(INVALID, "struct_size", azulejo_kdrt_sample(context, &kdrt, &out, NULL));
-        REFUSED(INVALID, "azulejo_maximal_options_init", azulejo_maximal_sample(context, &maximal, &out));
-        REFUSED(INVALID, "struct_size", azulejo_kdrt_merge(context, &merge, NULL, 0, NULL, 0, &out, NULL));
+        REFUSED(INVALID, "azulejo_maximal_options_init", azulejo_maximal_sample(context, &maximal, &out, NULL));
+        REFUSED(INVALID, "struct_size", azulejo_kdrt_merge(context, &merge, NULL, 0, sizeof(azulejo_kdrt_merge_piece), NULL, 0, &out, NULL));
         REFUSED(INVALID, "struct_size", azulejo_psp_sample(context, mesh, &psp, &out, NULL));
         REFUSED(INVALID, "struct_size", azulejo_dcr_relax(context, &dcr, xy, 1, &out, NULL));
     }

@@ -20,7 +20,7 @@ static azulejo_points *sample(const azulejo_kdrt_options *options, azulejo_kdrt_
     return points;
 }
 
-static int32_t never_visited(void *user, const float *xy, size_t count) {
+static uint32_t never_visited(void *user, const float *xy, size_t count) {
     (void)user;
     (void)xy;
     (void)count;
@@ -50,7 +50,7 @@ static void refused(void) {
     NO_SET("coarsest: 1.0 has no effect", (o.order = AZULEJO_ORDER_ANY, o.coarsest = 1));
 #undef NO_SET
     o = progressive(0.1);
-    REFUSED(INVALID, "order", azulejo_kdrt_stream(context, &o, never_visited, NULL));
+    REFUSED(INVALID, "order", azulejo_kdrt_stream(context, &o, never_visited, NULL, NULL));
     o.order = AZULEJO_ORDER_ANY;
     out = sample(&o, NULL);
     CHECK(azulejo_points_ranks(out) == NULL && azulejo_points_ranks(NULL) == NULL);

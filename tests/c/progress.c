@@ -21,7 +21,7 @@ static azulejo_status kdrt(watch *w, azulejo_points **out) {
 static azulejo_status covered(watch *w, azulejo_points **out) {
     azulejo_kdrt_options o = kdrt_options(0.02);
     azulejo_kdrt_report report = kdrt_report();
-    o.measure_coverage = 1;
+    o.measure_covering_radius = 1;
     o.progress = tell;
     o.progress_user = w;
     return azulejo_kdrt_sample(context, &o, out, &report);
@@ -31,7 +31,7 @@ static azulejo_status counted(watch *w, azulejo_points **out) {
     azulejo_kdrt_options o = kdrt_options(0);
     azulejo_kdrt_report report = kdrt_report();
     o.count = 20000;
-    o.measure_coverage = 1;
+    o.measure_covering_radius = 1;
     o.progress = tell;
     o.progress_user = w;
     return azulejo_kdrt_sample(context, &o, out, &report);
@@ -41,7 +41,7 @@ static azulejo_status maximal(watch *w, azulejo_points **out) {
     azulejo_maximal_options o = maximal_options(0.05);
     o.progress = tell;
     o.progress_user = w;
-    return azulejo_maximal_sample(context, &o, out);
+    return azulejo_maximal_sample(context, &o, out, NULL);
 }
 
 static azulejo_status psp(watch *w, azulejo_points **out) {
@@ -96,7 +96,7 @@ typedef struct {
     int ones, early;
 } writing;
 
-static int32_t look_at_the_report(void *user, double done) {
+static uint32_t look_at_the_report(void *user, double done) {
     writing *w = user;
     w->ones += done == 1;
     w->early += w->report->samples != 0;
@@ -112,9 +112,9 @@ static void the_one_comes_after_the_coverage(void) {
     writing seen = {&report, 0, 0};
     o.progress = look_at_the_report;
     o.progress_user = &seen;
-    o.measure_coverage = 1;
+    o.measure_covering_radius = 1;
     ACCEPTED(azulejo_kdrt_sample(context, &o, &points, &report));
-    CHECK(seen.ones > 0 && seen.early == 0 && report.samples == azulejo_points_count(points) && report.coverage > 0);
+    CHECK(seen.ones > 0 && seen.early == 0 && report.samples == azulejo_points_count(points) && report.covering_radius > 0);
     azulejo_points_free(points);
 
     before = report = kdrt_report();
@@ -125,10 +125,10 @@ static void the_one_comes_after_the_coverage(void) {
     CHECK(points == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
 
     points = NULL;
-    o.measure_coverage = 0;
+    o.measure_covering_radius = 0;
     o.progress_user = &sampling;
     ACCEPTED(azulejo_kdrt_sample(context, &o, &points, &report));
-    CHECK(sampling.last == 1 && report.coverage == -1);
+    CHECK(sampling.last == 1 && report.covering_radius == -1);
     azulejo_points_free(points);
 }
 
@@ -202,7 +202,7 @@ static void a_psp_handle_survives_cancelling(void) {
 }
 
 /* A callback that samples with the context of the call that it watches. */
-static int32_t sample_too(void *user, double done) {
+static uint32_t sample_too(void *user, double done) {
     azulejo_kdrt_options o = kdrt_options(0.2);
     azulejo_points *points = NULL;
     (void)done;
@@ -213,7 +213,7 @@ static int32_t sample_too(void *user, double done) {
 }
 
 /* A callback that wants more of the handle that is calling it. */
-static int32_t advance_too(void *user, double done) {
+static uint32_t advance_too(void *user, double done) {
     azulejo_psp *set = *(azulejo_psp **)user;
     azulejo_points *points = UNTOUCHED;
     (void)done;

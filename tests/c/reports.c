@@ -34,10 +34,53 @@ static azulejo_status kdrt(void *report) {
     return status;
 }
 
+static azulejo_status window(void *report) {
+    const azulejo_kdrt_options o = kdrt_options(0.1);
+    const double min[2] = {0.25, 0.25}, max[2] = {0.75, 0.75};
+    azulejo_points *out = NULL;
+    const azulejo_status status = azulejo_kdrt_sample_window(context, &o, min, max, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
+static uint32_t count_samples(void *user, const float *xy, size_t count) {
+    (void)xy;
+    *(size_t *)user += count;
+    return 0;
+}
+
+static azulejo_status stream(void *report) {
+    const azulejo_kdrt_options o = kdrt_options(0.1);
+    size_t count = 0;
+    return azulejo_kdrt_stream(context, &o, count_samples, &count, report);
+}
+
+static azulejo_status maximal(void *report) {
+    azulejo_maximal_options o;
+    azulejo_points *out = NULL;
+    azulejo_status status;
+    ACCEPTED(azulejo_maximal_options_init(&o, sizeof o));
+    o.radius = 0.1;
+    status = azulejo_maximal_sample(context, &o, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
+static azulejo_status thin(void *report) {
+    const azulejo_thin_options o = thin_options(0.1, 0, AZULEJO_ORDER_ANY);
+    azulejo_selection *out = NULL;
+    const azulejo_status status = azulejo_thin(context, &o, random_xy, COUNT_OF(random_xy) / 2, 2, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_selection_free(out);
+    return status;
+}
+
 static azulejo_status merge(void *report) {
     const azulejo_kdrt_merge_options o = merge_options(0.1);
     azulejo_points *out = NULL;
-    const azulejo_status status = azulejo_kdrt_merge(context, &o, NULL, 0, NULL, 0, &out, report);
+    const azulejo_status status = azulejo_kdrt_merge(context, &o, NULL, 0, sizeof(azulejo_kdrt_merge_piece), NULL, 0, &out, report);
     CHECK((out != NULL) == (status == AZULEJO_OK));
     azulejo_points_free(out);
     return status;
@@ -140,6 +183,7 @@ static azulejo_status spectral(void *report) { return azulejo_spectrum_measure(s
     }
 INIT(kdrt)
 INIT(kdrt_merge)
+INIT(thin)
 INIT(psp)
 INIT(dcr)
 INIT(dcr_surface)
@@ -161,14 +205,19 @@ typedef struct {
 #define REPORT(type, required, last)                                                                              \
     init_##type, "azulejo_" #type "_report", sizeof(azulejo_##type##_report), required,                                    \
         offsetof(azulejo_##type##_report, last)
+#define KDRT_TIMES offsetof(azulejo_kdrt_report, seconds), sizeof(azulejo_kdrt_report)
 #define PSP_TIMES offsetof(azulejo_psp_report, seconds), offsetof(azulejo_psp_report, rho)
 static const entry entries[] = {
-    {kdrt, REPORT(kdrt, 16, seconds), offsetof(azulejo_kdrt_report, seconds), sizeof(azulejo_kdrt_report), 1},
+    {kdrt, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
+    {window, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
+    {stream, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
+    {maximal, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
+    {thin, REPORT(thin, 16, seconds), offsetof(azulejo_thin_report, seconds), sizeof(azulejo_thin_report), 1},
     {merge, REPORT(kdrt_merge, 16, inserted), 0, 0, 1},
-    {psp, REPORT(psp, 16, coverage), PSP_TIMES, 1},
-    {adaptive, REPORT(psp, 16, coverage), PSP_TIMES, 1},
-    {dcr, REPORT(dcr, 8, coverage), 0, 0, 1},
-    {graded, REPORT(dcr, 8, coverage), 0, 0, 1},
+    {psp, REPORT(psp, 16, covering_radius), PSP_TIMES, 1},
+    {adaptive, REPORT(psp, 16, covering_radius), PSP_TIMES, 1},
+    {dcr, REPORT(dcr, 8, relative_covering_radius), 0, 0, 1},
+    {graded, REPORT(dcr, 8, relative_covering_radius), 0, 0, 1},
     {surface, REPORT(dcr_surface, 8, rho), 0, 0, 1},
     {remeshed, REPORT(dcr_remesh, 16, mean_smallest_angle), 0, 0, 1},
     {plane, REPORT(plane, 16, beyond_4_sigma), 0, 0, 0},
@@ -177,7 +226,7 @@ static const entry entries[] = {
     {spectral, REPORT(spectrum, 24, peak_frequency), 0, 0, 0},
 };
 
-static int32_t count_calls(void *user, double done) {
+static uint32_t count_calls(void *user, double done) {
     (void)user, (void)done;
     progress_calls++;
     return 0;

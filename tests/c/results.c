@@ -19,14 +19,14 @@ static void check_plane(azulejo_points *points, const azulejo_kdrt_options *opti
     ACCEPTED(azulejo_plane_smallest_distance(context, &set, &smallest));
     CHECK(count < 2 ? isinf(smallest) : smallest >= report->radius);
     ACCEPTED(azulejo_plane_covering_radius(context, &set, &covering));
-    CHECK(report->coverage == covering && covering > 0 && covering <= report->radius * (1 + 1e-6));
+    CHECK(report->covering_radius == covering && covering > 0 && covering <= report->radius * (1 + 1e-6));
     azulejo_points_free(points);
 }
 
 /* Exactly as many as asked for, with the radius, the coverage and the maximality that the report says. */
 static void counts(void) {
     const uint64_t numbers[] = {1, 2, 3, 7, 50, 299, 1000, 3001};
-    const int32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
+    const uint32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
     size_t i, j;
     for (i = 0; i < COUNT_OF(numbers); i++)
         for (j = 0; j < 2; j++) {
@@ -37,12 +37,12 @@ static void counts(void) {
             options.boundary = boundaries[j];
             options.domain_min[0] = -0.25;
             options.domain_max[1] = 0.7;
-            options.measure_coverage = 1;
+            options.measure_covering_radius = 1;
             UNWRITTEN(report);
             if (!ACCEPTED(azulejo_kdrt_sample(context, &options, &points, &report))) continue;
             CHECK(azulejo_points_count(points) == numbers[i] && report.samples == numbers[i]);
             CHECK(report.is_maximal == 1 && report.seconds >= 0 && report.seconds < 100);
-            options.measure_coverage = 0;
+            options.measure_covering_radius = 0;
             ACCEPTED(azulejo_kdrt_sample(context, &options, &without_report, NULL));
             CHECK(same_points(points, without_report));
             azulejo_points_free(without_report);
@@ -55,17 +55,17 @@ static void report_of_a_radius(void) {
     azulejo_kdrt_options options = kdrt_options(0.05);
     azulejo_kdrt_report report = kdrt_report();
     azulejo_points *points = NULL, *same = NULL;
-    options.measure_coverage = 1;
+    options.measure_covering_radius = 1;
     ACCEPTED(azulejo_kdrt_sample(context, &options, &points, &report));
-    options.measure_coverage = 0;
+    options.measure_covering_radius = 0;
     ACCEPTED(azulejo_kdrt_sample(context, &options, &same, NULL));
     CHECK(same_points(points, same));
     CHECK(report.samples == azulejo_points_count(points) && report.radius == 0.05 && report.is_maximal == 1);
-    CHECK(report.coverage > 0.04 && report.coverage <= 0.05 * (1 + 1e-6));
+    CHECK(report.covering_radius > 0.04 && report.covering_radius <= 0.05 * (1 + 1e-6));
     azulejo_points_free(same);
     ACCEPTED(azulejo_kdrt_sample(context, &options, &same, &report));
     CHECK(same_points(points, same));
-    CHECK(report.samples == azulejo_points_count(points) && report.radius == 0.05 && report.coverage == -1);
+    CHECK(report.samples == azulejo_points_count(points) && report.radius == 0.05 && report.covering_radius == -1);
     azulejo_points_free(points);
     azulejo_points_free(same);
 }

@@ -121,7 +121,7 @@ static inline azulejo_spectrum_report spectrum_report(void) {
 #define UNWRITTEN(report) (memset(&(report), 0x55, sizeof(report)), (void)((report).struct_size = sizeof(report)))
 
 static inline azulejo_plane_set plane_set(const float *positions, size_t count, const double *domain_min,
-                                          const double *domain_max, int32_t boundary) {
+                                          const double *domain_max, uint32_t boundary) {
     azulejo_plane_set set;
     ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
     set.positions = positions;
@@ -159,7 +159,7 @@ static inline int same_points(const azulejo_points *a, const azulejo_points *b) 
 
 /* Planes off the origin, and not square: at a radius of 0.005 one that is tiled, of about 46,000 samples, at 0.05 one that
    is made as a whole. */
-static inline azulejo_kdrt_options plane_options(int32_t boundary, double radius) {
+static inline azulejo_kdrt_options plane_options(uint32_t boundary, double radius) {
     azulejo_kdrt_options options = kdrt_options(radius);
     options.boundary = boundary;
     options.domain_min[0] = -1.5;

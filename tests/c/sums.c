@@ -91,7 +91,7 @@ static azulejo_kdrt_options far_away(azulejo_kdrt_options o) {
     return o;
 }
 
-static int32_t add_to_sum(void *sum, const float *xy, size_t count) {
+static uint32_t add_to_sum(void *sum, const float *xy, size_t count) {
     sha256_add(sum, xy, 2 * count * sizeof *xy);
     return 0;
 }
@@ -104,22 +104,22 @@ static void planes(void) {
     azulejo_kdrt *plane = NULL;
     sha256 stream;
     maximal.seed = 1;
-    POINTS("maximal periodic", azulejo_maximal_sample(context, &maximal, &points));
+    POINTS("maximal periodic", azulejo_maximal_sample(context, &maximal, &points, NULL));
     POINTS("kdrt 20r", azulejo_kdrt_sample(context, &o, &points, NULL));
     o = kdrt(0.002, 6, 4);
     POINTS("kdrt 6r", azulejo_kdrt_sample(context, &o, &points, NULL));
     o = far_away(kdrt(0.01, 20, 7));
     POINTS("kdrt far", azulejo_kdrt_sample(context, &o, &points, NULL));
     o = kdrt(0.0001, 20, 10);
-    POINTS("window", azulejo_kdrt_sample_window(context, &o, low, high, &points));
+    POINTS("window", azulejo_kdrt_sample_window(context, &o, low, high, &points, NULL));
     o = far_away(kdrt(0.0045, 20, 12));
     sha256_init(&stream);
-    ACCEPTED(azulejo_kdrt_stream(context, &o, add_to_sum, &stream));
+    ACCEPTED(azulejo_kdrt_stream(context, &o, add_to_sum, &stream, NULL));
     check_sum("stream", &stream);
     o = far_away(kdrt_options(0.02));
     o.order = AZULEJO_ORDER_PROGRESSIVE;
     o.coarsest = 0.1;
-    POINTS("ordered window", azulejo_kdrt_sample_window(context, &o, far_low, far_high, &points));
+    POINTS("ordered window", azulejo_kdrt_sample_window(context, &o, far_low, far_high, &points, NULL));
     o = kdrt(0.003, 20, 62);
     ACCEPTED(azulejo_kdrt_create(context, &o, &plane));
     POINTS("torus kept window", azulejo_kdrt_window(plane, part_low, part_high, &points));
@@ -171,13 +171,13 @@ static void planes_of_parts(void) {
         o.domain_min[0] = 0.5 * i, o.domain_max[0] = 0.5 * (i + 1);
         ACCEPTED(azulejo_kdrt_sample(context, &o, &halves[i], NULL));
         memset(&pieces[i], 0, sizeof pieces[i]);
-        pieces[i].xy = azulejo_points_positions(halves[i]);
+        pieces[i].positions = azulejo_points_positions(halves[i]);
         pieces[i].count = azulejo_points_count(halves[i]);
         memcpy(pieces[i].min, o.domain_min, sizeof o.domain_min);
         memcpy(pieces[i].max, o.domain_max, sizeof o.domain_max);
     }
     merge.seed = 18;
-    POINTS("merge", azulejo_kdrt_merge(context, &merge, pieces, 2, fixed, 2, &points, NULL));
+    POINTS("merge", azulejo_kdrt_merge(context, &merge, pieces, 2, sizeof(azulejo_kdrt_merge_piece), fixed, 2, &points, NULL));
     azulejo_points_free(halves[0]);
     azulejo_points_free(halves[1]);
 }
@@ -191,7 +191,7 @@ static void thinned(const char *name, azulejo_thin_options o, const float *xy, s
     azulejo_selection *selection = NULL;
     sha256 sum;
     o.seed = seed;
-    ACCEPTED(azulejo_thin(context, &o, xy, count, 2, &selection));
+    ACCEPTED(azulejo_thin(context, &o, xy, count, 2, &selection, NULL));
     count = azulejo_selection_count(selection);
     sha256_init(&sum);
     sha256_add(&sum, azulejo_selection_indices(selection), count * sizeof(uint32_t));
@@ -221,7 +221,7 @@ static void clouds(void) {
     thinned("thin progressive, plane", thin_options(0, 0, AZULEJO_ORDER_PROGRESSIVE), xy, 3000, 22);
     o.seed = 21;
     POINTS("relax delaunay", azulejo_dcr_relax(context, &o, xy, 3000, &points, &report));
-    numbers[0] = report.motion, numbers[1] = report.rho, numbers[2] = report.coverage;
+    numbers[0] = report.motion, numbers[1] = report.rho, numbers[2] = report.relative_covering_radius;
     check_bytes("relax delaunay: report", numbers, sizeof numbers);
     o.seed = 24;
     o.neighbourhood = AZULEJO_NEIGHBOURHOOD_NEAREST;

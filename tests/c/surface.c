@@ -42,7 +42,7 @@ static int on_triangles(const azulejo_points *points) {
     return count > 0;
 }
 
-static int32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
+static uint32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
 
 static void cancelled(const azulejo_context *context) {
     double limits[] = {0, 0.5, 1};

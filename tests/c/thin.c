@@ -16,15 +16,15 @@ static void small_clouds(void) {
     azulejo_thin_options options = thin_options(0, 10, AZULEJO_ORDER_PROGRESSIVE);
     azulejo_selection *selection = NULL;
     size_t i;
-    ACCEPTED(azulejo_thin(four, &options, same, 4, 2, &selection));
+    ACCEPTED(azulejo_thin(four, &options, same, 4, 2, &selection, NULL));
     CHECK(azulejo_selection_count(selection) == 4);
     for (i = 1; i < 4; i++) CHECK(azulejo_selection_ranks(selection)[i] == 0);
     azulejo_selection_free(selection);
     options.radius = 1e-30;
-    ACCEPTED(azulejo_thin(one, &options, same, 4, 2, &selection));
+    ACCEPTED(azulejo_thin(one, &options, same, 4, 2, &selection, NULL));
     CHECK(azulejo_selection_count(selection) == 1);
     azulejo_selection_free(selection);
-    ACCEPTED(azulejo_thin(one, &options, NULL, 0, 3, &selection));
+    ACCEPTED(azulejo_thin(one, &options, NULL, 0, 3, &selection, NULL));
     CHECK(selection != NULL && azulejo_selection_count(selection) == 0);
     CHECK(azulejo_selection_indices(selection) == NULL && azulejo_selection_ranks(selection) == NULL);
     azulejo_selection_free(selection);
@@ -38,31 +38,31 @@ static void refused(void) {
     const azulejo_thin_options good = thin_options(0.1, 0, AZULEJO_ORDER_ANY);
     azulejo_thin_options bad = good;
     azulejo_selection *out = UNTOUCHED;
-    REFUSED(INVALID, "context", azulejo_thin(NULL, &good, xyz, 1, 3, &out));
-    REFUSED(INVALID, "options", azulejo_thin(one, NULL, xyz, 1, 3, &out));
-    REFUSED(INVALID, "positions: is NULL", azulejo_thin(one, &good, NULL, 1, 3, &out));
-    REFUSED(INVALID, "positions: ", azulejo_thin(one, &good, misaligned, 1, 3, &out));
-    REFUSED(INVALID, "out", azulejo_thin(one, &good, xyz, 1, 3, NULL));
-    REFUSED(INVALID, "dimensions: 1 is", azulejo_thin(one, &good, xyz, 1, 1, &out));
-    REFUSED(INVALID, "dimensions: 4 is", azulejo_thin(one, &good, xyz, 1, 4, &out));
-    REFUSED(INVALID, "positions: point 1 is [3.0, 4.0, NaN]", azulejo_thin(one, &good, xyz, 2, 3, &out));
-    REFUSED(INVALID, "positions: point 2 is [4.0, NaN]", azulejo_thin(one, &good, xyz, 3, 2, &out));
-    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_thin(one, &good, xyz, SIZE_MAX / 8, 3, &out));
+    REFUSED(INVALID, "context", azulejo_thin(NULL, &good, xyz, 1, 3, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_thin(one, NULL, xyz, 1, 3, &out, NULL));
+    REFUSED(INVALID, "positions: is NULL", azulejo_thin(one, &good, NULL, 1, 3, &out, NULL));
+    REFUSED(INVALID, "positions: ", azulejo_thin(one, &good, misaligned, 1, 3, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_thin(one, &good, xyz, 1, 3, NULL, NULL));
+    REFUSED(INVALID, "dimension: 1 is", azulejo_thin(one, &good, xyz, 1, 1, &out, NULL));
+    REFUSED(INVALID, "dimension: 4 is", azulejo_thin(one, &good, xyz, 1, 4, &out, NULL));
+    REFUSED(INVALID, "positions: point 1 is [3.0, 4.0, NaN]", azulejo_thin(one, &good, xyz, 2, 3, &out, NULL));
+    REFUSED(INVALID, "positions: point 2 is [4.0, NaN]", azulejo_thin(one, &good, xyz, 3, 2, &out, NULL));
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "count", azulejo_thin(one, &good, xyz, SIZE_MAX / 8, 3, &out, NULL));
     bad.radius = -1;
-    REFUSED(INVALID, "radius: -1", azulejo_thin(one, &bad, xyz, 1, 3, &out));
+    REFUSED(INVALID, "radius: -1", azulejo_thin(one, &bad, xyz, 1, 3, &out, NULL));
     bad.radius = NAN;
-    REFUSED(INVALID, "radius: NaN", azulejo_thin(one, &bad, xyz, 1, 3, &out));
+    REFUSED(INVALID, "radius: NaN", azulejo_thin(one, &bad, xyz, 1, 3, &out, NULL));
     bad.radius = 0;
-    REFUSED(INVALID, "radius: 0", azulejo_thin(one, &bad, xyz, 1, 3, &out));
+    REFUSED(INVALID, "radius: 0", azulejo_thin(one, &bad, xyz, 1, 3, &out, NULL));
     bad.order = 2;
-    REFUSED(INVALID, "order: 2 is no", azulejo_thin(one, &bad, xyz, 1, 3, &out));
+    REFUSED(INVALID, "order: 2 is no", azulejo_thin(one, &bad, xyz, 1, 3, &out, NULL));
     bad = good;
     bad.struct_size = 8;
-    REFUSED(INVALID, "struct_size", azulejo_thin(one, &bad, xyz, 1, 3, &out));
+    REFUSED(INVALID, "struct_size", azulejo_thin(one, &bad, xyz, 1, 3, &out, NULL));
     CHECK(out == UNTOUCHED);
 }
 
-static int32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
+static uint32_t stop_at(void *user, double done) { return done >= *(const double *)user; }
 
 static void cancelled(const azulejo_context *context) {
     double limits[] = {0, 0.2, 0.6, 1};
@@ -72,7 +72,7 @@ static void cancelled(const azulejo_context *context) {
         azulejo_thin_options options = thin_options(0, 0, AZULEJO_ORDER_PROGRESSIVE);
         options.progress = stop_at;
         options.progress_user = &limits[i];
-        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_thin(context, &options, cloud, POINTS, 3, &out));
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_thin(context, &options, cloud, POINTS, 3, &out, NULL));
     }
     CHECK(out == UNTOUCHED);
 }

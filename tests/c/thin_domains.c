@@ -45,7 +45,7 @@ int main(void) {
         density.values = &white;
         density.width = density.height = 1;
         ENDS(azulejo_kdrt_sample(context, &tiled, &out, NULL), 0);
-        ENDS(azulejo_maximal_sample(context, &maximal, &out), 0);
+        ENDS(azulejo_maximal_sample(context, &maximal, &out, NULL), 0);
         ENDS(azulejo_dcr_relax(context, &relaxed, origin, 1, &out, NULL), 1);
         ENDS(azulejo_dcr_relax_density(context, &relaxed, &density, origin, 1, &out, NULL), 1);
         ENDS(azulejo_dcr_scatter(context, &relaxed, &density, 10, &out), 10);

@@ -16,7 +16,7 @@ static void sample_all(const azulejo_context *context, azulejo_points *out[KINDS
     azulejo_dcr_options dcr = dcr_options(20);
     psp.iterations = 1;
     ACCEPTED(azulejo_kdrt_sample(context, &kdrt, &out[0], NULL));
-    ACCEPTED(azulejo_maximal_sample(context, &maximal, &out[1]));
+    ACCEPTED(azulejo_maximal_sample(context, &maximal, &out[1], NULL));
     ACCEPTED(azulejo_psp_sample(context, cube, &psp, &out[2], NULL));
     ACCEPTED(azulejo_dcr_relax(context, &dcr, random_xy, POINTS, &out[3], NULL));
 }
@@ -76,7 +76,7 @@ static void *advance_from_elsewhere(void *set) {
     return &status;
 }
 
-static int32_t let_another_thread_try(void *user, double done) {
+static uint32_t let_another_thread_try(void *user, double done) {
     pthread_t thread;
     void *status;
     (void)done;

@@ -13,14 +13,14 @@ namespace {
 
 azulejo_mesh *cube;
 
-int32_t throws(void *, double done) {
+uint32_t throws(void *, double done) {
     if (done >= 0.3) throw std::runtime_error("from a progress callback");
     return 0;
 }
 
 double throws_radius(void *, const double *) { throw std::runtime_error("from a radius"); }
 
-int32_t throws_visit(void *, const float *, size_t) { throw std::runtime_error("from a visitor"); }
+uint32_t throws_visit(void *, const float *, size_t) { throw std::runtime_error("from a visitor"); }
 
 void progress(const azulejo_context *context) {
     auto options = kdrt_options(0.02);
@@ -33,7 +33,7 @@ void radius(const azulejo_context *context) {
     azulejo_psp_adaptive_options options;
     azulejo_points *points = nullptr;
     azulejo_psp_adaptive_options_init(&options, sizeof options);
-    options.radius = throws_radius;
+    options.radius_function = throws_radius;
     options.smallest = 0.1;
     options.largest = 0.2;
     azulejo_psp_adaptive_sample(context, cube, &options, &points, nullptr);
@@ -41,7 +41,7 @@ void radius(const azulejo_context *context) {
 
 void visit(const azulejo_context *context) {
     const auto options = kdrt_options(0.02);
-    azulejo_kdrt_stream(context, &options, throws_visit, nullptr);
+    azulejo_kdrt_stream(context, &options, throws_visit, nullptr, NULL);
 }
 
 // The signal that ends a process which makes this call, or 0 if it goes on.

@@ -15,7 +15,7 @@ typedef struct {
     pthread_t thread;
 } watch;
 
-static inline int32_t tell(void *user, double done) {
+static inline uint32_t tell(void *user, double done) {
     watch *w = user;
     if (w->calls++ == 0) w->first = done;
     w->falls += done < w->last;

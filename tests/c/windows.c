@@ -11,7 +11,7 @@ static azulejo_points *make_window(const azulejo_context *context, const azulejo
                                    double bottom, double right, double top) {
     const double low[2] = {left, bottom}, high[2] = {right, top};
     azulejo_points *points = NULL;
-    ACCEPTED(azulejo_kdrt_sample_window(context, options, low, high, &points));
+    ACCEPTED(azulejo_kdrt_sample_window(context, options, low, high, &points, NULL));
     return points;
 }
 
@@ -23,7 +23,7 @@ typedef struct {
     pthread_t thread;
 } sink;
 
-static int32_t keep(void *user, const float *xy, size_t count) {
+static uint32_t keep(void *user, const float *xy, size_t count) {
     sink *s = user;
     s->visits++;
     s->strangers += !pthread_equal(s->thread, pthread_self());
@@ -42,7 +42,7 @@ static sink make_sink(size_t capacity, int last) {
 static int streams(const azulejo_context *context, const azulejo_kdrt_options *options, const azulejo_points *whole) {
     const size_t count = azulejo_points_count(whole);
     sink s = make_sink(count, 0);
-    ACCEPTED(azulejo_kdrt_stream(context, options, keep, &s));
+    ACCEPTED(azulejo_kdrt_stream(context, options, keep, &s, NULL));
     CHECK(s.count == count && s.strangers == 0 && s.empty == 0);
     CHECK(memcmp(s.xy, azulejo_points_positions(whole), 8 * count) == 0);
     free(s.xy);
@@ -53,7 +53,7 @@ static void streams_that_are_left(const azulejo_context *context, const azulejo_
     int last;
     for (last = 1; last <= parts; last++) {
         sink s = make_sink(0, last);
-        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_stream(context, options, keep, &s));
+        REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_stream(context, options, keep, &s, NULL));
         CHECK(s.visits == last && s.strangers == 0);
         free(s.xy);
     }
@@ -64,7 +64,7 @@ typedef struct {
     int falls, late;
 } watch;
 
-static int32_t tell(void *user, double done) {
+static uint32_t tell(void *user, double done) {
     watch *w = user;
     w->falls += done < w->last;
     w->late += w->last >= w->limit;
@@ -83,15 +83,15 @@ static void progress(const azulejo_context *context, azulejo_kdrt_options option
         options.progress = tell;
         options.progress_user = &w;
         if (limits[i] > 1) {
-            ACCEPTED(azulejo_kdrt_stream(context, &options, keep, &s));
+            ACCEPTED(azulejo_kdrt_stream(context, &options, keep, &s, NULL));
             CHECK(w.last == 1);
         } else {
-            REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_stream(context, &options, keep, &s));
+            REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled", azulejo_kdrt_stream(context, &options, keep, &s, NULL));
             CHECK(limits[i] > 0 || s.visits == 0);
             CHECK(w.falls == 0 && w.late == 0);
             w.last = -1;
             REFUSED(AZULEJO_ERROR_CANCELLED, "cancelled",
-                    azulejo_kdrt_sample_window(context, &options, options.domain_min, options.domain_max, &points));
+                    azulejo_kdrt_sample_window(context, &options, options.domain_min, options.domain_max, &points, NULL));
             CHECK(points == UNTOUCHED);
         }
         CHECK(w.falls == 0 && w.late == 0);
@@ -100,7 +100,7 @@ static void progress(const azulejo_context *context, azulejo_kdrt_options option
 }
 
 /* A visit that makes a window with the context that the stream runs on. */
-static int32_t look_closer(void *user, const float *xy, size_t count) {
+static uint32_t look_closer(void *user, const float *xy, size_t count) {
     const azulejo_context *context = user;
     const azulejo_kdrt_options options = plane_options(AZULEJO_BOUNDARY_PERIODIC, 0.005);
     azulejo_points *points = make_window(context, &options, xy[0], xy[1], xy[0] + 1e-6, xy[1] + 1e-6);
@@ -111,7 +111,7 @@ static int32_t look_closer(void *user, const float *xy, size_t count) {
 }
 
 int main(void) {
-    const int32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
+    const uint32_t boundaries[] = {AZULEJO_BOUNDARY_PERIODIC, AZULEJO_BOUNDARY_BOUNDED};
     size_t i;
     one = make_context(1);
     four = make_context(4);
@@ -130,8 +130,8 @@ int main(void) {
     }
     {
         const azulejo_kdrt_options options = plane_options(AZULEJO_BOUNDARY_PERIODIC, 0.005);
-        ACCEPTED(azulejo_kdrt_stream(one, &options, look_closer, one));
-        ACCEPTED(azulejo_kdrt_stream(four, &options, look_closer, four));
+        ACCEPTED(azulejo_kdrt_stream(one, &options, look_closer, one, NULL));
+        ACCEPTED(azulejo_kdrt_stream(four, &options, look_closer, four, NULL));
     }
     azulejo_context_free(one);
     azulejo_context_free(four);

@@ -19,7 +19,7 @@ static void is_refused(azulejo_context *context, const azulejo_mesh *mesh) {
     ACCEPTED(azulejo_psp_create(context, mesh, &options, &set));
     CHECK(azulejo_psp_advance(set, 1, NULL) == AZULEJO_ERROR_UNSUPPORTED);
     azulejo_psp_free(set);
-    REFUSED(AZULEJO_ERROR_UNSUPPORTED, "this build has none", azulejo_mesh_create_from_embree(scene, &geometry, 1, &copy));
+    REFUSED(AZULEJO_ERROR_UNSUPPORTED, "this build has none", azulejo_mesh_create_from_embree(scene, &geometry, 1, sizeof(azulejo_embree_geometry), &copy));
     CHECK(copy == NULL);
 }
 

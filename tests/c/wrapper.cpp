@@ -44,7 +44,7 @@ void errors() {
     CHECK(throws(AZULEJO_ERROR_IO, "missing.ply", [] { azulejo::Mesh::load("missing.ply"); }));
     const std::vector<float> seven(7);
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "positions: 7", [&] { azulejo::Mesh mesh(seven, {}); }));
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "xy: 7",
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "positions: 7",
                  [&] { azulejo::dcr_relax(azulejo::Context(1), azulejo::DcrOptions(), seven); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "indices", [] { azulejo::Mesh mesh(positions, {}); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius",
@@ -191,7 +191,7 @@ void surfaces() {
     ordered.order = AZULEJO_ORDER_PROGRESSIVE;
     const auto hundred = azulejo::psp_sample(context, *mesh, ordered, &report);
     CHECK(hundred.size() == 100 && hundred.ranks().size() == 100 && whole.ranks().empty());
-    CHECK(report.radius == hundred.ranks()[99] && report.coverage <= 1.0906 * report.radius);
+    CHECK(report.radius == hundred.ranks()[99] && report.covering_radius <= 1.0906 * report.radius);
 
     CHECK(!mesh->has_normals() && whole.interpolated_normals().empty());
     const std::array<float, 3> up = {0, 0, 2};
@@ -225,12 +225,12 @@ void counts() {
     azulejo::KdrtReport report;
     const auto points = azulejo::kdrt_sample(context, options, &report);
     CHECK(points.size() == 777 && report.samples == 777 && report.is_maximal == 1);
-    CHECK(azulejo::plane_smallest_distance(context, {points, options}) >= report.radius && report.coverage == -1);
-    options.measure_coverage = 1;
+    CHECK(azulejo::plane_smallest_distance(context, {points, options}) >= report.radius && report.covering_radius == -1);
+    options.measure_covering_radius = 1;
     const auto measured = azulejo::kdrt_sample(context, options, &report);
-    CHECK(report.coverage == azulejo::plane_covering_radius(context, {measured, options}) && report.coverage > 0);
-    CHECK(refused("measure_coverage", [&] { azulejo::kdrt_sample(context, options); }));
-    options.measure_coverage = 0;
+    CHECK(report.covering_radius == azulejo::plane_covering_radius(context, {measured, options}) && report.covering_radius > 0);
+    CHECK(refused("measure_covering_radius", [&] { azulejo::kdrt_sample(context, options); }));
+    options.measure_covering_radius = 0;
     options.order = AZULEJO_ORDER_PROGRESSIVE;
     const auto ordered = azulejo::kdrt_sample(context, options, &report);
     CHECK(measured.ranks().empty() && ordered.ranks().size() == 777 && ordered.ranks()[776] == report.radius);
@@ -358,7 +358,7 @@ void merging() {
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "fixed: 7",
                  [&] { azulejo::kdrt_merge(context, options, {}, seven); }));
     const std::array<azulejo::KdrtMergePiece, 1> odd = {{{seven, {0, 0}, {1, 1}}}};
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "xy: 7", [&] { azulejo::kdrt_merge(context, options, odd); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "positions: 7", [&] { azulejo::kdrt_merge(context, options, odd); }));
     const std::array<azulejo::KdrtMergePiece, 2> twice = {pieces[0], pieces[0]};
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "overlap", [&] { azulejo::kdrt_merge(context, options, twice); }));
     options.set_progress([](double) { return false; });

@@ -63,7 +63,7 @@ fn clearances(given: &[[f32; 3]], classes: usize) -> Vec<f64> {
 fn add(list: &mut List, name: &str, (samples, report): (Points<3>, Report)) {
     list.samples(name, &samples);
     let counts = [report.samples, report.darts, report.conflicts].map(|count| count as f64);
-    let numbers = [report.rho, report.radius, report.coverage.unwrap_or(-1.0)];
+    let numbers = [report.rho, report.radius, report.covering_radius.unwrap_or(-1.0)];
     list.numbers(&format!("{name}: report"), &[counts, numbers].concat());
 }
 

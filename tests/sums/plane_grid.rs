@@ -140,7 +140,10 @@ fn relaxed_and_measured(context: &Context, place: &str, domain: Domain, size: &S
         let options = dcr::Options::new(domain, neighbourhood).seed(68).max_iterations(ITERATIONS);
         let (positions, report) = dcr::relax(context, &options, &start, None)?;
         list.points(&format!("{place} relax {name}"), &positions);
-        list.numbers(&format!("{place} relax {name}: report"), &[report.motion, report.rho, report.coverage]);
+        list.numbers(
+            &format!("{place} relax {name}: report"),
+            &[report.motion, report.rho, report.relative_covering_radius],
+        );
         let thesis = dcr::Options::thesis(domain, neighbourhood).max_iterations(ITERATIONS / 4);
         list.points(&format!("{place} relax {name}, thesis"), &dcr::relax(context, &thesis, &start, None)?.0);
         relaxed = positions;

@@ -19,7 +19,7 @@ pub fn sums(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
     let mut relax = |name: &str, options: Options, points: &[[f32; 2]]| {
         let (relaxed, report) = dcr::relax(context, &options, points, None)?;
         list.points(name, &relaxed);
-        list.numbers(&format!("{name}: report"), &[report.motion, report.rho, report.coverage]);
+        list.numbers(&format!("{name}: report"), &[report.motion, report.rho, report.relative_covering_radius]);
         Ok(())
     };
     relax("relax delaunay", Options::new(TORUS, DELAUNAY).seed(21), &sets.random)?;
@@ -51,7 +51,7 @@ fn in_classes(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
         let options = DelaunayOptions::new(domain).seed(28);
         let (relaxed, report, each) = dcr::relax_classes(context, &options, points, &of, None)?;
         list.points(name, &relaxed);
-        let each = each.iter().flat_map(|class| [class.rho, class.coverage]);
+        let each = each.iter().flat_map(|class| [class.rho, class.relative_covering_radius]);
         list.numbers(
             &format!("{name}: report"),
             &[report.motion, report.rho].into_iter().chain(each).collect::<Vec<_>>(),
@@ -68,7 +68,7 @@ fn by_density(context: &Context, list: &mut List) -> Result<()> {
     let options = DelaunayOptions::new(SQUARE).seed(26);
     let (relaxed, report) = dcr::relax_with_density(context, &options, &disc, &start, None)?;
     list.points("density function", &relaxed);
-    list.numbers("density function: report", &[report.rho, report.coverage]);
+    list.numbers("density function: report", &[report.rho, report.relative_covering_radius]);
 
     let value = |i: usize| if i % 64 < 20 { 0.0 } else { ((i * 37) % 101) as f32 };
     let values: Vec<f32> = (0..64 * 48).map(value).collect();

@@ -80,7 +80,7 @@ fn ordered(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
     ] {
         let (samples, report) = psp::sample(context, mesh, &options, None)?;
         list.samples(name, &samples);
-        list.numbers(&format!("{name}: report"), &[report.radius, report.coverage.unwrap_or(-1.0)]);
+        list.numbers(&format!("{name}: report"), &[report.radius, report.covering_radius.unwrap_or(-1.0)]);
     }
     Ok(())
 }
@@ -131,7 +131,7 @@ fn with_density(context: &Context, open: &Mesh, list: &mut List) -> Result<()> {
     let options = adaptive::Options::new(by_count).seed(47).order(Order::Progressive);
     let (ordered, report) = adaptive::sample(context, open, &options, None)?;
     list.samples("adaptive, ordered count", &ordered);
-    list.numbers("adaptive, ordered count: report", &[report.radius, report.coverage.unwrap_or(-1.0)]);
+    list.numbers("adaptive, ordered count: report", &[report.radius, report.covering_radius.unwrap_or(-1.0)]);
     Ok(())
 }
 

@@ -149,7 +149,7 @@ pub extern "C" fn azulejo_plane_free(plane: Option<Box<Plane>>) {
     drop(plane);
 }
 
-/// The relaxed points; the number of iterations, the reason for stopping, motion, smallest distance, rho and coverage.
+/// The relaxed points; the number of iterations, the reason for stopping, motion, smallest distance, rho and relative covering radius.
 ///
 /// # Safety
 /// `points` is valid for reads of `count` points.
@@ -177,7 +177,14 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
             .seed(seed);
         let (relaxed, report) = dcr::relax(context, &options, points, None)?;
         let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
-        let report = vec![iterations, stopped, report.motion, report.smallest_distance, report.rho, report.coverage];
+        let report = vec![
+            iterations,
+            stopped,
+            report.motion,
+            report.smallest_distance,
+            report.rho,
+            report.relative_covering_radius,
+        ];
         Ok(Answer::default().and(relaxed).and(report))
     })
 }

@@ -86,7 +86,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
             sampling = sampling.iterations(Some(options.iterations as u32));
         }
         let (samples, report) = sampling.sample(context, &mesh.0, None)?;
-        Ok(answer(samples).and(vec![report.radius, report.coverage.unwrap_or(-1.0)]))
+        Ok(answer(samples).and(vec![report.radius, report.covering_radius.unwrap_or(-1.0)]))
     })
 }
 

@@ -15,13 +15,13 @@ use crate::watch::Watch;
 
 /// Points of the plane in their domain.
 pub(crate) struct PlaneSet<'py> {
-    xy: Array<'py, f32>,
+    positions: Array<'py, f32>,
     domain: Domain,
 }
 
 impl<'py> PlaneSet<'py> {
-    pub(crate) fn read(xy: &Bound<'py, PyAny>, min: [f64; 2], max: [f64; 2], boundary: &str) -> PyResult<Self> {
-        Ok(Self { xy: Array::read("xy", xy)?, domain: domain(min, max, boundary)? })
+    pub(crate) fn read(positions: &Bound<'py, PyAny>, min: [f64; 2], max: [f64; 2], boundary: &str) -> PyResult<Self> {
+        Ok(Self { positions: Array::read("positions", positions)?, domain: domain(min, max, boundary)? })
     }
 
     pub(crate) fn run<T: Send>(
@@ -29,32 +29,32 @@ impl<'py> PlaneSet<'py> {
         watch: Watch,
         call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> Result<T, Error> + Send,
     ) -> PyResult<T> {
-        let (points, domain) = (self.xy.rows()?, &self.domain);
+        let (points, domain) = (self.positions.rows()?, &self.domain);
         watch.run(|context, progress| call(context, domain, points, progress))
     }
 }
 
 /// The smallest distance of two points of the plane; infinite for less than two.
 ///
-/// xy: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
+/// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
 /// domain_min, domain_max: the corners of the domain, two numbers each.
 /// boundary: "periodic" (distances wrap around) or "bounded".
 /// threads: 0 for one per core.
 /// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
 ))]
 pub(crate) fn plane_smallest_distance(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
     boundary: &str,
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
-    PlaneSet::read(xy, domain_min, domain_max, boundary)?
+    PlaneSet::read(positions, domain_min, domain_max, boundary)?
         .run(Watch::new(py, threads, progress)?, spacing::smallest_distance_2d)
 }
 
@@ -62,18 +62,18 @@ pub(crate) fn plane_smallest_distance(
 /// by the Voronoi diagram. The arguments are those of plane_smallest_distance.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
 ))]
 pub(crate) fn plane_covering_radius(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
     boundary: &str,
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
-    PlaneSet::read(xy, domain_min, domain_max, boundary)?
+    PlaneSet::read(positions, domain_min, domain_max, boundary)?
         .run(Watch::new(py, threads, progress)?, coverage::covering_radius_2d)
 }
 
@@ -116,11 +116,11 @@ impl From<Coverage> for CoverageReport {
 /// Returns a CoverageReport.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
 ))]
 pub(crate) fn plane_coverage(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     radius: f64,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
@@ -128,7 +128,7 @@ pub(crate) fn plane_coverage(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<CoverageReport> {
-    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let coverage = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
         coverage::coverage_2d(context, domain, points, radius, progress)
     })?;
@@ -222,18 +222,18 @@ pub(crate) struct PlaneReport {
 /// The arguments are those of plane_smallest_distance. Returns a PlaneReport.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
 ))]
 pub(crate) fn plane_measure(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
     boundary: &str,
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PlaneReport> {
-    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let Figures { nearest, covering_radius, bond_order, triangles, .. } =
         set.run(Watch::new(py, threads, progress)?, figures_2d)?;
     let spacing = spacing_2d(&set.domain, &nearest);
@@ -264,11 +264,11 @@ pub(crate) fn plane_measure(
 /// Returns uint64, shape (bins,).
 #[pyfunction]
 #[pyo3(signature = (
-    xy, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
 ))]
 pub(crate) fn plane_nearest_histogram(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     reach: f64,
     bins: i128,
     domain_min: [f64; 2],
@@ -277,7 +277,7 @@ pub(crate) fn plane_nearest_histogram(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyArray1<u64>>> {
-    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let bins = natural("bins", bins)?;
     let histogram = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
         // Bad bins are refused before any work.
@@ -291,18 +291,18 @@ pub(crate) fn plane_nearest_histogram(
 /// The radial distribution function of points of the plane, also called pair correlation: the density of other points at a
 /// distance from a point, over the mean density. 1 for a Poisson process.
 ///
-/// xy: at least 2 points.
+/// positions: at least 2 points.
 /// reach: where the last bin ends, in units of d_max, at most half of the domain's width or height.
 /// bins: their number, 1 to 65536. The others are those of plane_smallest_distance.
 ///
 /// Returns float64, shape (bins,).
 #[pyfunction]
 #[pyo3(signature = (
-    xy, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
 ))]
 pub(crate) fn plane_radial_distribution(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     reach: f64,
     bins: i128,
     domain_min: [f64; 2],
@@ -311,7 +311,7 @@ pub(crate) fn plane_radial_distribution(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyArray1<f64>>> {
-    let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let bins = natural("bins", bins)?;
     let distribution = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
         radial_distribution(context, domain, points, reach, bins, progress)

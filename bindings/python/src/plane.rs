@@ -298,7 +298,7 @@ pub(crate) struct KdrtMergeReport {
 
 /// Merges sets that were made separately, each maximal in its rectangle, into one that is maximal in the domain.
 ///
-/// pieces: a sequence of (xy, min, max): samples, float32, shape (n, 2), and the corners of the rectangle they fill.
+/// pieces: a sequence of (positions, min, max): samples, float32, shape (n, 2), and the corners of the rectangle they fill.
 /// fixed: float32, shape (m, 2), or None: points of the domain that must stay; they are the first of the result.
 /// The others are those of kdrt_sample.
 ///
@@ -322,11 +322,12 @@ pub(crate) fn kdrt_merge<'py>(
 ) -> PyResult<Points> {
     let domain = domain(domain_min, domain_max, boundary)?;
     let request = kdrt::MergeOptions::new(radius).domain(domain).seed(natural("seed", seed)?);
-    let arrays: Vec<Array<f32>> = pieces.iter().map(|(xy, ..)| Array::read("pieces", xy)).collect::<PyResult<_>>()?;
+    let arrays: Vec<Array<f32>> =
+        pieces.iter().map(|(positions, ..)| Array::read("pieces", positions)).collect::<PyResult<_>>()?;
     let pieces: Vec<_> = arrays
         .iter()
         .zip(&pieces)
-        .map(|(xy, &(_, min, max))| Ok(kdrt::Piece { samples: xy.rows()?, min, max }))
+        .map(|(positions, &(_, min, max))| Ok(kdrt::Piece { samples: positions.rows()?, min, max }))
         .collect::<PyResult<_>>()?;
     let fixed = crate::array::optional("fixed", fixed)?;
     let fixed = fixed.as_ref().map_or(Ok([].as_slice()), Array::rows)?;

@@ -20,7 +20,7 @@ pub(crate) struct PspReport {
     /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
     radius: f64,
     /// Every place of the surface is so near to a sample; None where that is not known.
-    coverage: Option<f64>,
+    covering_radius: Option<f64>,
     /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
     rho: f64,
     /// Samples of the set after the call.
@@ -41,9 +41,20 @@ pub(crate) struct PspReport {
 
 impl From<psp::Report> for PspReport {
     fn from(report: psp::Report) -> Self {
-        let psp::Report { radius, coverage, rho, samples, accepted, iterations, darts, .. } = report;
+        let psp::Report { radius, covering_radius, rho, samples, accepted, iterations, darts, .. } = report;
         let psp::Report { uncovered_before, uncovered_after, seconds, .. } = report;
-        Self { radius, coverage, rho, samples, accepted, iterations, darts, uncovered_before, uncovered_after, seconds }
+        Self {
+            radius,
+            covering_radius,
+            rho,
+            samples,
+            accepted,
+            iterations,
+            darts,
+            uncovered_before,
+            uncovered_after,
+            seconds,
+        }
     }
 }
 

@@ -28,12 +28,12 @@ pub(crate) struct DcrReport {
     /// That in units of d_max, the distance of neighbours in hexagonal order; with a density, of that at each place.
     rho: f64,
     /// In the plane: the covering radius in units of d_max.
-    coverage: Option<f64>,
+    relative_covering_radius: Option<f64>,
     /// Of several classes: the rho of each, float64, shape (k,), in units of the d_max of its own number of points;
     /// infinite for less than two points. The other figures are those of the union.
     class_rho: Option<Py<PyArray1<f64>>>,
-    /// Of several classes: the coverage of each, float64, shape (k,), in the same units; infinite for no point.
-    class_coverage: Option<Py<PyArray1<f64>>>,
+    /// Of several classes: the covering radius of each, float64, shape (k,), in the same units; infinite for no point.
+    class_relative_covering_radius: Option<Py<PyArray1<f64>>>,
 }
 
 fn reason(stopped: Stopped) -> &'static str {
@@ -46,16 +46,16 @@ fn reason(stopped: Stopped) -> &'static str {
 
 impl From<dcr::Report> for DcrReport {
     fn from(report: dcr::Report) -> Self {
-        let dcr::Report { iterations, stopped, motion, smallest_distance, rho, coverage, .. } = report;
+        let dcr::Report { iterations, stopped, motion, smallest_distance, rho, relative_covering_radius, .. } = report;
         Self {
             iterations,
             stopped: reason(stopped),
             motion,
             smallest_distance,
             rho,
-            coverage: Some(coverage),
+            relative_covering_radius: Some(relative_covering_radius),
             class_rho: None,
-            class_coverage: None,
+            class_relative_covering_radius: None,
         }
     }
 }
@@ -69,9 +69,9 @@ impl From<surface::Report> for DcrReport {
             motion,
             smallest_distance,
             rho,
-            coverage: None,
+            relative_covering_radius: None,
             class_rho: None,
-            class_coverage: None,
+            class_relative_covering_radius: None,
         }
     }
 }
@@ -93,7 +93,7 @@ fn with_steps(domain: Domain, max_iterations: i128, tolerance: Option<f64>, seed
 
 /// Moves points of the plane until they are evenly spread: a blue-noise set without the look of a lattice.
 ///
-/// xy: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
+/// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
 /// domain_min, domain_max, boundary: as in kdrt_sample.
 /// neighbourhood: "delaunay" (neighbours keep their distance and close holes) or "nearest" (they only repel).
 /// method: "momentum", or "thesis" for the algorithm of the thesis.
@@ -106,16 +106,16 @@ fn with_steps(domain: Domain, max_iterations: i128, tolerance: Option<f64>, seed
 /// progress: called with the fraction that is done, from 0 to 1; if it returns False the call returns the state after the
 ///     last whole step.
 ///
-/// Returns Points, in the order of xy, with the report DcrReport.
+/// Returns Points, in the order of positions, with the report DcrReport.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", neighbourhood="delaunay",
+    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", neighbourhood="delaunay",
     method="momentum", max_iterations=100, tolerance=None, seed=0, conflict_radius=None, attraction_radius=None,
     step=None, decay=None, neighbours=None, distribution=None, visits=None, convergence=None, threads=0, progress=None
 ))]
 pub(crate) fn dcr_relax(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
     boundary: &str,
@@ -135,8 +135,8 @@ pub(crate) fn dcr_relax(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let xy = Array::read("xy", xy)?;
-    let points = xy.rows()?;
+    let positions = Array::read("positions", positions)?;
+    let points = positions.rows()?;
     let domain = domain(domain_min, domain_max, boundary)?;
     let neighbourhoods = [("delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)];
     let neighbourhood = choice("neighbourhood", neighbourhood, &neighbourhoods)?;
@@ -188,20 +188,20 @@ pub(crate) fn dcr_relax(
 /// of kdrt_sample_classes. They cannot be as even as the points of one class alone, and no distance between points of two
 /// classes is promised.
 ///
-/// xy: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
+/// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
 /// classes: the class of each point, uint32, shape (n,), at most 15.
 /// The others are those of dcr_relax. About 2.5 times its time.
 ///
-/// Returns Points with classes, in the order of xy, and the report DcrReport, which has class_rho and class_coverage for the
-/// classes up to the highest.
+/// Returns Points with classes, in the order of positions, and the report DcrReport, which has class_rho and
+/// class_relative_covering_radius for the classes up to the highest.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, classes, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
+    positions, classes, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
     tolerance=None, seed=0, threads=0, progress=None
 ))]
 pub(crate) fn dcr_relax_classes(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     classes: &Bound<'_, PyAny>,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
@@ -212,14 +212,17 @@ pub(crate) fn dcr_relax_classes(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let (xy, classes) = (Array::read("xy", xy)?, Array::read("classes", classes)?);
-    let (points, classes) = (xy.rows()?, classes.line()?);
+    let (positions, classes) = (Array::read("positions", positions)?, Array::read("classes", classes)?);
+    let (points, classes) = (positions.rows()?, classes.line()?);
     let request = with_steps(domain(domain_min, domain_max, boundary)?, max_iterations, tolerance, seed)?;
     let (samples, report, each) = Watch::new(py, threads, progress)?
         .run(|context, progress| dcr::relax_classes(context, &request, points, classes, progress))?;
     let report = DcrReport {
         class_rho: Some(line(py, each.iter().map(|class| class.rho).collect())),
-        class_coverage: Some(line(py, each.iter().map(|class| class.coverage).collect())),
+        class_relative_covering_radius: Some(line(
+            py,
+            each.iter().map(|class| class.relative_covering_radius).collect(),
+        )),
         ..report.into()
     };
     Points::plane(py, samples)?.with_classes(py, classes.to_vec()).with_report(py, report)
@@ -227,19 +230,19 @@ pub(crate) fn dcr_relax_classes(
 
 /// Moves points of the plane until they are spread as a density wants: stippling.
 ///
-/// xy: the points, float32, shape (n, 2), such as those of dcr_scatter.
+/// positions: the points, float32, shape (n, 2), such as those of dcr_scatter.
 /// density: an image, float32, shape (height, width), 0 or above and not 0 everywhere, laid over the domain; its first
 ///     row lies along domain_min[1]. The others are those of dcr_relax.
 ///
-/// Returns Points, in the order of xy, with the report DcrReport.
+/// Returns Points, in the order of positions, with the report DcrReport.
 #[pyfunction]
 #[pyo3(signature = (
-    xy, density, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
+    positions, density, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
     tolerance=None, seed=0, threads=0, progress=None
 ))]
 pub(crate) fn dcr_relax_density(
     py: Python<'_>,
-    xy: &Bound<'_, PyAny>,
+    positions: &Bound<'_, PyAny>,
     density: &Bound<'_, PyAny>,
     domain_min: [f64; 2],
     domain_max: [f64; 2],
@@ -250,8 +253,8 @@ pub(crate) fn dcr_relax_density(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let (xy, density) = (Array::read("xy", xy)?, Array::read("density", density)?);
-    let (points, (values, [width, height])) = (xy.rows()?, density.image()?);
+    let (positions, density) = (Array::read("positions", positions)?, Array::read("density", density)?);
+    let (points, (values, [width, height])) = (positions.rows()?, density.image()?);
     let request = with_steps(domain(domain_min, domain_max, boundary)?, max_iterations, tolerance, seed)?;
     let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| {
         dcr::relax_with_density(context, &request, &Density::Image { values, width, height }, points, progress)

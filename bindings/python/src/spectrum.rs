@@ -15,9 +15,9 @@ use crate::watch::Watch;
 
 /// The power spectrum of points of the plane, by fast Fourier transform in double arithmetic.
 ///
-/// xy: the points, float32, shape (n, 2).
+/// positions: the points, float32, shape (n, 2).
 /// size: the number of frequencies per side, 2 to 4096; the lowest are -(size // 2) steps of 1 / width and 1 / height.
-/// stride: 1 takes all frequencies; k, up to 4096, every k-th along both axes.
+/// frequency_stride: 1 takes all frequencies; k, up to 4096, every k-th along both axes.
 /// domain_min, domain_max, boundary, threads, progress: as in plane_smallest_distance.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Spectrum {
@@ -45,22 +45,22 @@ pub(crate) struct SpectrumReport {
 impl Spectrum {
     #[new]
     #[pyo3(signature = (
-        xy, size, stride=1, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0,
+        positions, size, frequency_stride=1, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0,
         progress=None
     ))]
     fn new(
         py: Python<'_>,
-        xy: &Bound<'_, PyAny>,
+        positions: &Bound<'_, PyAny>,
         size: i128,
-        stride: i128,
+        frequency_stride: i128,
         domain_min: [f64; 2],
         domain_max: [f64; 2],
         boundary: &str,
         threads: i128,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let set = PlaneSet::read(xy, domain_min, domain_max, boundary)?;
-        let (size, stride) = (natural("size", size)?, natural("stride", stride)?);
+        let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
+        let (size, stride) = (natural("size", size)?, natural("frequency_stride", frequency_stride)?);
         let periodogram = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
             sparse_periodogram(context, domain, points, size, stride, progress)
         })?;

@@ -235,7 +235,7 @@ XY = np.full((3, 2), 0.5, np.float32)
         (lambda: azulejo.psp_adaptive_sample(MESH, [0.1]), ValueError, "vertex"),
         (lambda: azulejo.psp_adaptive_with_density(MESH, np.ones(MESH.vertex_count)), ValueError, "radius"),
         (lambda: azulejo.psp_adaptive_with_density(MESH, np.ones((2, 2)), count=9), ValueError, "density"),
-        (lambda: azulejo.dcr_relax([[2.0, 0.0]]), ValueError, "xy"),
+        (lambda: azulejo.dcr_relax([[2.0, 0.0]]), ValueError, "positions"),
         (lambda: azulejo.dcr_relax(XY, step=0.1), ValueError, "step"),
         (lambda: azulejo.dcr_relax(XY, method="thesis", step=7.0), ValueError, "step"),
         (lambda: azulejo.dcr_relax(XY, tolerance=-1), ValueError, "tolerance"),

@@ -119,7 +119,7 @@ def test_given_samples(mesh):
 def test_relaxation_on_a_mesh(mesh):
     points = azulejo.psp_sample(mesh, 0.2)
     relaxed = azulejo.dcr_surface_relax(mesh, points.triangles, points.barycentrics, max_iterations=20)
-    assert len(relaxed) == len(points) and relaxed.report.coverage is None
+    assert len(relaxed) == len(points) and relaxed.report.relative_covering_radius is None
     assert smallest_distance(relaxed.positions) >= smallest_distance(points.positions)
 
 

@@ -113,7 +113,9 @@ def test_relaxation_spreads_classes():
     assert (after.classes == before.classes).all()
     assert after.report.rho > 0.7 and after.report.class_rho.dtype == np.float64
     sets = [slice(None), before.classes == 0, before.classes == 1]
-    rhos, coverages = [after.report.rho, *after.report.class_rho], [after.report.coverage, *after.report.class_coverage]
+    report = after.report
+    rhos = [report.rho, *report.class_rho]
+    coverages = [report.relative_covering_radius, *report.class_relative_covering_radius]
     for members, rho, coverage in zip(sets, rhos, coverages):
         points = after.positions[members]
         hexagonal = np.sqrt(2 / (np.sqrt(3) * len(points)))

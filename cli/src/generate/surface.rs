@@ -255,7 +255,7 @@ impl Surface {
             .cosine(self.cosine);
         let mesh = Arc::new(mesh);
         let (samples, done) = watched("surface", |progress| options.sample(context, &mesh, Some(progress)))?;
-        let covered = match done.coverage {
+        let covered = match done.covering_radius {
             Some(coverage) if coverage > done.radius => format!(", covered within {}", rounded(coverage, 4)),
             _ => String::new(),
         };

@@ -25,14 +25,15 @@ use crate::thin::{AZULEJO_ORDER_ANY, order};
 /// for the same position, return (see "Callbacks" at the top), and must not call the library with
 /// the same context.
 ///
-/// user: the radius_user of the options.
+/// user: the radius_function_user of the options.
 ///
 /// position: x y z of a place on the mesh; for a sample, the floats that are returned.
 ///
 /// Returns the radius in the units of the mesh, from `smallest` to `largest`.
 pub type azulejo_radius_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius` must be set.
+/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius_function`
+/// must be set.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_psp_adaptive_options {
@@ -43,26 +44,27 @@ pub struct azulejo_psp_adaptive_options {
     pub order: u32,
     /// A radius for each vertex of the mesh, above 0, in its units; used during the call only. At
     /// the barycentrics u v of a sample on the triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in
-    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if `radius` is set.
+    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if
+    /// `radius_function` is set.
     pub vertex_radii: *const f32,
     /// The number of vertex_radii: that of the vertices of the mesh. Must be 0, the default, if
-    /// `radius` is set.
+    /// `radius_function` is set.
     pub vertex_count: usize,
     /// Gives the radius at a position. NULL, the default, if `vertex_radii` is set.
-    pub radius: azulejo_radius_fn,
-    /// Passed to `radius`.
-    pub radius_user: *mut c_void,
-    /// The smallest value of `radius`, above 0. Must be 0, the default, with vertex_radii.
+    pub radius_function: azulejo_radius_fn,
+    /// Passed to `radius_function`.
+    pub radius_function_user: *mut c_void,
+    /// The smallest value of `radius_function`, above 0. Must be 0, the default, with vertex_radii.
     pub smallest: f64,
-    /// The largest value of `radius`. Must be 0, the default, with vertex_radii.
+    /// The largest value of `radius_function`. Must be 0, the default, with vertex_radii.
     pub largest: f64,
-    /// The most by which `radius` changes per unit of distance between two places of a triangle; 0,
-    /// the default: it is constant on each triangle. Coverage is proved with it, so it must hold: a
-    /// violation that is detected makes the call fail, one that is not can leave gaps. From about 1
-    /// on the work grows with its square, and from about 30 on it may be refused as too much; for
-    /// images and other data with edges vertex_radii, which carry their own slopes, are the better
-    /// choice. At most `smallest` / 24 per spacing of floats at the largest coordinate of the mesh.
-    /// Must be 0 with vertex_radii.
+    /// The most by which `radius_function` changes per unit of distance between two places of a
+    /// triangle; 0, the default: it is constant on each triangle. Coverage is proved with it, so it
+    /// must hold: a violation that is detected makes the call fail, one that is not can leave gaps.
+    /// From about 1 on the work grows with its square, and from about 30 on it may be refused as
+    /// too much; for images and other data with edges vertex_radii, which carry their own slopes,
+    /// are the better choice. At most `smallest` / 24 per spacing of floats at the largest
+    /// coordinate of the mesh. Must be 0 with vertex_radii.
     pub slope: f64,
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
     /// that the two sides of a thin wall are sampled as if they were far apart; triangles must be
@@ -97,8 +99,8 @@ growing!(azulejo_psp_adaptive_options requires slope {
     order: AZULEJO_ORDER_ANY,
     vertex_radii: std::ptr::null(),
     vertex_count: 0,
-    radius: None,
-    radius_user: std::ptr::null_mut(),
+    radius_function: None,
+    radius_function_user: std::ptr::null_mut(),
     smallest: 0.0,
     largest: 0.0,
     slope: 0.0,
@@ -155,26 +157,27 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 /// In progressive order the samples are sorted coarse to fine. Ranks are what all radii are
 /// multiplied by: with its radii times the i-th rank the prefix of i samples is conflict-free, and
 /// with all radii times `quotient` times that rank it is maximal (see there for i below 100). Ranks
-/// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius` keep their
-/// meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) / log(quotient)
-/// levels visit all triangles and call `radius`; where radii are small beside the triangles it
-/// takes several times as long as a set in any order. Where the radius jumps, samples of the
-/// larger radius that came first leave fewer on the other side than in any order.
+/// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius_function` keep
+/// their meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) /
+/// log(quotient) levels visit all triangles and call `radius_function`; where radii are small
+/// beside the triangles it takes several times as long as a set in any order. Where the radius
+/// jumps, samples of the larger radius that came first leave fewer on the other side than in any
+/// order.
 ///
 /// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
 /// order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, or NULL; iterations, rays and hits are 0. In progressive order its
-/// `radius` is 1, as the radii are those asked for, and `coverage` as well.
+/// `radius` is 1, as the radii are those asked for, and `covering_radius` as well.
 ///
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below
 /// 64 times the spacing of floats at the largest coordinate, for a given sample out of range, with
-/// its index, and if `radius` returns a value outside `smallest` to `largest` or changes faster
-/// than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii that
-/// change so fast that finding out what is covered would take thousands of evaluations per sample;
-/// AZULEJO_ERROR_CANCELLED.
+/// its index, and if `radius_function` returns a value outside `smallest` to `largest` or changes
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii
+/// that change so fast that finding out what is covered would take thousands of evaluations per
+/// sample; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
     context: *const azulejo_context,
@@ -192,7 +195,8 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
         let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
-        let callback = options.radius.map(|function| Callback { function, user: options.radius_user });
+        let callback =
+            options.radius_function.map(|function| Callback { function, user: options.radius_function_user });
         let at = callback.as_ref().map(|callback| |position| callback.call(position));
         // SAFETY: handed on from the caller.
         let radii = unsafe { options.vertex_radii() }?;
@@ -238,7 +242,9 @@ impl azulejo_psp_adaptive_options {
 
     /// Refuses radii, in a call that gets a density.
     pub(crate) fn check_without_radii(&self) -> Result<(), Failure> {
-        for (field, is_set) in [("vertex_radii", !self.vertex_radii.is_null()), ("radius", self.radius.is_some())] {
+        for (field, is_set) in
+            [("vertex_radii", !self.vertex_radii.is_null()), ("radius_function", self.radius_function.is_some())]
+        {
             if is_set {
                 return Err(Failure::invalid(field, "is set; it must be NULL with a density"));
             }
@@ -250,16 +256,22 @@ impl azulejo_psp_adaptive_options {
         Ok(())
     }
 
-    /// The radii of the vertices; none where `radius` is set.
+    /// The radii of the vertices; none where `radius_function` is set.
     ///
     /// # Safety
     /// Unless the checks fail, `vertex_radii` leads to `vertex_count` numbers that are not
     /// changed during `'a`.
     unsafe fn vertex_radii<'a>(&self) -> Result<&'a [f32], Failure> {
-        match (self.radius.is_some(), self.vertex_radii.is_null()) {
-            (true, true) => check_unused("vertex_count", self.vertex_count, 0, "with radius").map(|()| [].as_slice()),
-            (true, false) => Err(Failure::invalid("radius", "is set, and vertex_radii too; one of them must be NULL")),
-            (false, true) => Err(Failure::invalid("radius", "is NULL, and vertex_radii too; one of them is needed")),
+        match (self.radius_function.is_some(), self.vertex_radii.is_null()) {
+            (true, true) => {
+                check_unused("vertex_count", self.vertex_count, 0, "with radius_function").map(|()| [].as_slice())
+            }
+            (true, false) => {
+                Err(Failure::invalid("radius_function", "is set, and vertex_radii too; one of them must be NULL"))
+            }
+            (false, true) => {
+                Err(Failure::invalid("radius_function", "is NULL, and vertex_radii too; one of them is needed"))
+            }
             // SAFETY: the caller's word.
             (false, false) => unsafe {
                 for (field, value) in [("smallest", self.smallest), ("largest", self.largest), ("slope", self.slope)] {

@@ -188,7 +188,7 @@ mod tests {
         let misaligned = floats.as_ptr().wrapping_byte_add(1);
         let status = |pointer, count| {
             // SAFETY: the only combination that passes the checks is the true one.
-            call(|| unsafe { rows::<f32, 2>("xy", pointer, "count", count) }.map(drop))
+            call(|| unsafe { rows::<f32, 2>("positions", pointer, "count", count) }.map(drop))
         };
         assert_eq!(status(floats.as_ptr(), 3), AZULEJO_OK);
         assert_eq!(status(std::ptr::null(), 0), AZULEJO_OK);

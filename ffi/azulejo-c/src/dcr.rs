@@ -16,41 +16,41 @@ use crate::status::{Failure, azulejo_status};
 
 /// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close
 /// holes.
-pub const AZULEJO_NEIGHBOURHOOD_DELAUNAY: i32 = 0;
+pub const AZULEJO_NEIGHBOURHOOD_DELAUNAY: u32 = 0;
 /// A point's neighbours are its nearest points: they only repel.
-pub const AZULEJO_NEIGHBOURHOOD_NEAREST: i32 = 1;
+pub const AZULEJO_NEIGHBOURHOOD_NEAREST: u32 = 1;
 
 /// The momentum method, the default: neighbours in conflict push each other away, holes pull the
 /// points around them, points have momentum, and long waves of the density are removed.
-pub const AZULEJO_METHOD_MOMENTUM: i32 = 0;
+pub const AZULEJO_METHOD_MOMENTUM: u32 = 0;
 /// The algorithm of thesis chapter 4.
-pub const AZULEJO_METHOD_THESIS: i32 = 1;
+pub const AZULEJO_METHOD_THESIS: u32 = 1;
 
 /// The tension of an edge is divided between its ends according to their activeness: the default.
-pub const AZULEJO_DISTRIBUTION_ACTIVENESS: i32 = 0;
+pub const AZULEJO_DISTRIBUTION_ACTIVENESS: u32 = 0;
 /// Half of the tension goes to each end.
-pub const AZULEJO_DISTRIBUTION_AVERAGE: i32 = 1;
+pub const AZULEJO_DISTRIBUTION_AVERAGE: u32 = 1;
 /// All of the tension goes to the neighbour.
-pub const AZULEJO_DISTRIBUTION_DOMINANT: i32 = 2;
+pub const AZULEJO_DISTRIBUTION_DOMINANT: u32 = 2;
 /// All of the tension goes to the point itself.
-pub const AZULEJO_DISTRIBUTION_ZERO: i32 = 3;
+pub const AZULEJO_DISTRIBUTION_ZERO: u32 = 3;
 /// 80 per cent of the tension goes to the point itself, 20 to the neighbour.
-pub const AZULEJO_DISTRIBUTION_EIGHTY_TWENTY: i32 = 4;
+pub const AZULEJO_DISTRIBUTION_EIGHTY_TWENTY: u32 = 4;
 
 /// An edge is visited from each end that has the other one in its neighbourhood: the default.
-pub const AZULEJO_VISITS_BOTH_ENDS: i32 = 0;
+pub const AZULEJO_VISITS_BOTH_ENDS: u32 = 0;
 /// An edge is visited from one end, the same in every step, chosen by a hash of the seed and the
 /// two points. Points move about half as far in a step, and the constant distributions differ with
 /// Delaunay neighbours too.
-pub const AZULEJO_VISITS_ONE_END: i32 = 1;
+pub const AZULEJO_VISITS_ONE_END: u32 = 1;
 
 /// A set has converged when the motion falls to the tolerance: the default.
-pub const AZULEJO_CONVERGENCE_MOTION: i32 = 0;
+pub const AZULEJO_CONVERGENCE_MOTION: u32 = 0;
 /// A set has converged when ten times in succession the variance of the distances to the nearest
 /// point changes by less than 0.1 per cent in a step and more than 99 per cent of the points move
 /// by less than 0.01 d_max (thesis section 4.4.2). The smaller the step, the earlier that happens;
 /// in sets of a few hundred points it may never happen.
-pub const AZULEJO_CONVERGENCE_VARIANCE: i32 = 1;
+pub const AZULEJO_CONVERGENCE_VARIANCE: u32 = 1;
 
 /// Options of azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_scatter. The latter uses
 /// only the domain, the boundary, the seed and the progress callback; the struct is shared so that
@@ -64,16 +64,16 @@ pub struct azulejo_dcr_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    pub boundary: i32,
+    pub boundary: u32,
     /// The lower corner of the domain, x y; finite; default 0 0.
     pub domain_min: [f64; 2],
     /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
     /// 1 1. Neither side may be longer than 2^100 times the other.
     pub domain_max: [f64; 2],
     /// An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
-    pub neighbourhood: i32,
+    pub neighbourhood: u32,
     /// An AZULEJO_METHOD_ constant; default momentum.
-    pub method: i32,
+    pub method: u32,
     /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
     /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
     /// ends earlier when the set has converged.
@@ -105,11 +105,11 @@ pub struct azulejo_dcr_options {
     /// The number of neighbours of AZULEJO_NEIGHBOURHOOD_NEAREST; at least 1; default 6.
     pub neighbours: u32,
     /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); default activeness.
-    pub distribution: i32,
+    pub distribution: u32,
     /// An AZULEJO_VISITS_ constant; default both ends.
-    pub visits: i32,
+    pub visits: u32,
     /// An AZULEJO_CONVERGENCE_ constant; default motion.
-    pub convergence: i32,
+    pub convergence: u32,
 }
 
 growing!(azulejo_dcr_options requires domain_max {
@@ -191,7 +191,7 @@ impl azulejo_dcr_options {
     }
 }
 
-fn neighbourhood(value: i32) -> Result<Neighbourhood, Failure> {
+fn neighbourhood(value: u32) -> Result<Neighbourhood, Failure> {
     match value {
         AZULEJO_NEIGHBOURHOOD_DELAUNAY => Ok(Neighbourhood::Delaunay),
         AZULEJO_NEIGHBOURHOOD_NEAREST => Ok(Neighbourhood::Nearest),
@@ -199,7 +199,7 @@ fn neighbourhood(value: i32) -> Result<Neighbourhood, Failure> {
     }
 }
 
-fn distribution(value: i32) -> Result<Distribution, Failure> {
+fn distribution(value: u32) -> Result<Distribution, Failure> {
     match value {
         AZULEJO_DISTRIBUTION_ACTIVENESS => Ok(Distribution::Activeness),
         AZULEJO_DISTRIBUTION_AVERAGE => Ok(Distribution::Average),
@@ -210,7 +210,7 @@ fn distribution(value: i32) -> Result<Distribution, Failure> {
     }
 }
 
-fn visits(value: i32) -> Result<Visits, Failure> {
+fn visits(value: u32) -> Result<Visits, Failure> {
     match value {
         AZULEJO_VISITS_BOTH_ENDS => Ok(Visits::BothEnds),
         AZULEJO_VISITS_ONE_END => Ok(Visits::OneEnd),
@@ -218,7 +218,7 @@ fn visits(value: i32) -> Result<Visits, Failure> {
     }
 }
 
-fn convergence(value: i32) -> Result<Convergence, Failure> {
+fn convergence(value: u32) -> Result<Convergence, Failure> {
     match value {
         AZULEJO_CONVERGENCE_MOTION => Ok(Convergence::Motion),
         AZULEJO_CONVERGENCE_VARIANCE => Ok(Convergence::Variance),
@@ -229,11 +229,11 @@ fn convergence(value: i32) -> Result<Convergence, Failure> {
 /// The set converged, or there was nothing to move. With AZULEJO_METHOD_MOMENTUM and Delaunay
 /// neighbours no points are then closer than 0.85 d_max and no circumradius is above 0.67 d_max, up
 /// to the last step.
-pub const AZULEJO_STOPPED_CONVERGED: i32 = 0;
+pub const AZULEJO_STOPPED_CONVERGED: u32 = 0;
 /// All steps were made.
-pub const AZULEJO_STOPPED_STEPS: i32 = 1;
+pub const AZULEJO_STOPPED_STEPS: u32 = 1;
 /// The progress callback cancelled the call.
-pub const AZULEJO_STOPPED_CANCELLED: i32 = 2;
+pub const AZULEJO_STOPPED_CANCELLED: u32 = 2;
 
 /// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
 #[repr(C)]
@@ -244,7 +244,7 @@ pub struct azulejo_dcr_report {
     /// The steps made.
     pub iterations: u32,
     /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    pub stopped: i32,
+    pub stopped: u32,
     /// Always 0.
     pub reserved: u32,
     /// Half of the distance that points moved, root mean square, in units of d_max: over the last
@@ -258,7 +258,7 @@ pub struct azulejo_dcr_report {
     /// 1 on a periodic domain; infinite for fewer than two points.
     pub rho: f64,
     /// The covering radius in units of d_max; infinite for no point.
-    pub coverage: f64,
+    pub relative_covering_radius: f64,
 }
 
 growing!(azulejo_dcr_report requires iterations {
@@ -268,14 +268,14 @@ growing!(azulejo_dcr_report requires iterations {
     motion: 0.0,
     smallest_distance: 0.0,
     rho: 0.0,
-    coverage: 0.0,
+    relative_covering_radius: 0.0,
 });
 
 impl From<Report> for azulejo_dcr_report {
     fn from(report: Report) -> Self {
-        let Report { iterations, stopped, motion, smallest_distance, rho, coverage, .. } = report;
+        let Report { iterations, stopped, motion, smallest_distance, rho, relative_covering_radius, .. } = report;
         let stopped = reason(stopped);
-        Self { iterations, stopped, motion, smallest_distance, rho, coverage, ..Self::DEFAULT }
+        Self { iterations, stopped, motion, smallest_distance, rho, relative_covering_radius, ..Self::DEFAULT }
     }
 }
 
@@ -292,7 +292,7 @@ pub unsafe extern "C" fn azulejo_dcr_report_init(
 }
 
 /// The constant for why no more steps were made.
-pub(crate) fn reason(stopped: Stopped) -> i32 {
+pub(crate) fn reason(stopped: Stopped) -> u32 {
     match stopped {
         Stopped::Converged => AZULEJO_STOPPED_CONVERGED,
         Stopped::Steps => AZULEJO_STOPPED_STEPS,
@@ -314,7 +314,7 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 /// is the set after the last whole step. A call that its progress callback cancels succeeds with
 /// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
 ///
-/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
 /// out: the points, in the same order, to be freed with azulejo_points_free.
 ///
@@ -331,7 +331,7 @@ pub(crate) fn reason(stopped: Stopped) -> i32 {
 pub unsafe extern "C" fn azulejo_dcr_relax(
     context: *const azulejo_context,
     options: *const azulejo_dcr_options,
-    xy: *const f32,
+    positions: *const f32,
     count: usize,
     out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_report,
@@ -345,7 +345,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
         let (options, report): (azulejo_dcr_options, _) =
             unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: handed on from the caller.
-        let points = unsafe { rows::<f32, 2>("xy", xy, "count", count) }?;
+        let points = unsafe { rows::<f32, 2>("positions", positions, "count", count) }?;
         let request = options.request()?;
         let (relaxed, done) =
             context.run(options.watch(), |context, progress| dcr::relax(context, &request, points, progress))?;
@@ -369,19 +369,19 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
 /// progress callback cancels succeeds with what there is then, and AZULEJO_STOPPED_CANCELLED in
 /// the report.
 ///
-/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
 /// classes: the class of each point, below class_count; `count` of them.
 ///
 /// class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
 ///
+/// class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
+/// `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
+/// number of points; infinite where a class has fewer than two points, or none.
+///
 /// out: the points, in the same order, to be freed with azulejo_points_free.
 ///
 /// report: what the call did, with the figures of the union, or NULL.
-///
-/// class_rho, class_coverage: class_count numbers each, or NULL: the rho and the coverage of
-/// each class, as in the report, in units of the d_max of its own number of points; infinite
-/// where a class has fewer than two points, or none.
 ///
 /// About 2.5 times the time of azulejo_dcr_relax, and O(count) memory. Source: the constraints
 /// of thesis chapter 4 for each of the sets; several classes after Wei 2010.
@@ -391,14 +391,14 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
 pub unsafe extern "C" fn azulejo_dcr_relax_classes(
     context: *const azulejo_context,
     options: *const azulejo_dcr_options,
-    xy: *const f32,
+    positions: *const f32,
     classes: *const u32,
     count: usize,
     class_count: u32,
+    class_rho: *mut f64,
+    class_relative_covering_radius: *mut f64,
     out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_report,
-    class_rho: *mut f64,
-    class_coverage: *mut f64,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let out = unsafe { Out::new(out) };
@@ -409,7 +409,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax_classes(
         let (options, report): (azulejo_dcr_options, _) =
             unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: handed on from the caller.
-        let points = unsafe { rows::<f32, 2>("xy", xy, "count", count) }?;
+        let points = unsafe { rows::<f32, 2>("positions", positions, "count", count) }?;
         // SAFETY: handed on from the caller.
         let classes = unsafe { rows::<u32, 1>("classes", classes, "count", count) }?.as_flattened();
         check_classes(classes, class_count)?;
@@ -418,8 +418,8 @@ pub unsafe extern "C" fn azulejo_dcr_relax_classes(
             dcr::relax_classes(context, &request, points, classes, progress)
         })?;
         for class in 0..class_count as usize {
-            let figures = each.get(class).map_or([f64::INFINITY; 2], |of| [of.rho, of.coverage]);
-            for (start, figure) in [class_rho, class_coverage].into_iter().zip(figures) {
+            let figures = each.get(class).map_or([f64::INFINITY; 2], |of| [of.rho, of.relative_covering_radius]);
+            for (start, figure) in [class_rho, class_relative_covering_radius].into_iter().zip(figures) {
                 if !start.is_null() {
                     // SAFETY: the caller has room for `class_count` numbers there.
                     unsafe { start.add(class).write(figure) };

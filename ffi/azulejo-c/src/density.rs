@@ -20,7 +20,7 @@ use crate::status::{Failure, azulejo_status};
 /// for each place of a lattice of up to some hundred places per point: by azulejo_dcr_relax_density
 /// before its first report of progress, by azulejo_dcr_scatter after that.
 ///
-/// user: the `user` of the azulejo_density.
+/// user: the `function_user` of the azulejo_density.
 ///
 /// position: x y of a place in the domain.
 ///
@@ -48,16 +48,16 @@ pub struct azulejo_density {
     /// Gives the density at a position. NULL, the default, if `values` is set.
     pub function: azulejo_density_fn,
     /// Passed to `function`.
-    pub user: *mut c_void,
+    pub function_user: *mut c_void,
 }
 
-growing!(azulejo_density requires user {
+growing!(azulejo_density requires function_user {
     reserved: 0,
     values: std::ptr::null(),
     width: 0,
     height: 0,
     function: None,
-    user: std::ptr::null_mut(),
+    function_user: std::ptr::null_mut(),
 });
 
 /// The caller's function and its user pointer, as the core calls it.
@@ -91,7 +91,7 @@ impl azulejo_density {
             (Some(function), true) => {
                 check_unused("width", self.width, 0, "with function")?;
                 check_unused("height", self.height, 0, "with function")?;
-                let callback = Callback { function, user: self.user };
+                let callback = Callback { function, user: self.function_user };
                 body(&Density::Function(&|position| callback.call(position)))
             }
             (None, false) => {
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 ///
 /// density: the density of the points; used during the call only.
 ///
-/// xy: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
 ///
 /// out: the points after the last whole step, in the same order, to be freed with
 /// azulejo_points_free. A call that its progress callback cancels succeeds, as that of
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
     context: *const azulejo_context,
     options: *const azulejo_dcr_options,
     density: *const azulejo_density,
-    xy: *const f32,
+    positions: *const f32,
     count: usize,
     out: *mut *mut azulejo_points,
     report: *mut azulejo_dcr_report,
@@ -211,7 +211,7 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
             unsafe { (growing::read("options", options)?, growing::read("density", density)?) };
         // SAFETY: likewise.
         let (points, report) =
-            unsafe { (rows::<f32, 2>("xy", xy, "count", count)?, Output::optional("report", report)?) };
+            unsafe { (rows::<f32, 2>("positions", positions, "count", count)?, Output::optional("report", report)?) };
         let request = options.request()?.to_delaunay("densities")?;
         let relax = |density: &Density| {
             context.run(options.watch(), |context, progress| {

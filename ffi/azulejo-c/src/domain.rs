@@ -1,6 +1,6 @@
 //! Rectangles of the plane, as they stand in options and arguments.
 
-use azulejo_core::{Boundary, Context, Domain, Error, Progress};
+use azulejo_core::{Boundary, Context, Domain, Progress};
 
 use crate::boundary::rows;
 use crate::context::azulejo_context;
@@ -10,12 +10,12 @@ use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
 
 /// The domain is a torus: distances wrap with the period domain_max - domain_min.
-pub const AZULEJO_BOUNDARY_PERIODIC: i32 = 0;
+pub const AZULEJO_BOUNDARY_PERIODIC: u32 = 0;
 /// The domain ends at its edges: samples beyond them neither exist nor cover anything.
-pub const AZULEJO_BOUNDARY_BOUNDED: i32 = 1;
+pub const AZULEJO_BOUNDARY_BOUNDED: u32 = 1;
 
 /// The domain of the caller; the core checks the corners.
-pub(crate) fn domain(min: [f64; 2], max: [f64; 2], boundary: i32) -> Result<Domain, Failure> {
+pub(crate) fn domain(min: [f64; 2], max: [f64; 2], boundary: u32) -> Result<Domain, Failure> {
     let boundary = match boundary {
         AZULEJO_BOUNDARY_PERIODIC => Boundary::Periodic,
         AZULEJO_BOUNDARY_BOUNDED => Boundary::Bounded,
@@ -31,7 +31,7 @@ pub struct azulejo_plane_set {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    pub boundary: i32,
+    pub boundary: u32,
     /// The points, x y each, with domain_min <= x < domain_max on both axes. Default NULL: none.
     pub positions: *const f32,
     /// The number of points; default 0.
@@ -88,17 +88,6 @@ impl<'a> PlaneSet<'a> {
         &self,
         call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> azulejo_core::Result<T>,
     ) -> Result<T, Failure> {
-        self.context.run(Watch::NONE, |context, progress| {
-            call(context, &self.domain, self.points, progress).map_err(in_words_of_c)
-        })
-    }
-}
-
-/// An error of the core, which knows the positions as `xy`.
-fn in_words_of_c(error: Error) -> Error {
-    match error {
-        Error::InvalidArgument { argument: "xy", reason } => Error::InvalidArgument { argument: "positions", reason },
-        Error::TooLarge { argument: "xy", reason } => Error::TooLarge { argument: "positions", reason },
-        other => other,
+        self.context.run(Watch::NONE, |context, progress| call(context, &self.domain, self.points, progress))
     }
 }

@@ -7,13 +7,14 @@ use std::sync::Arc;
 use azulejo_core::mesh::Mesh;
 use azulejo_core::trace::host_buffers;
 
-use crate::boundary::{Out, check_pointer, check_size, rows};
+use crate::boundary::{Out, check_pointer, check_size};
+use crate::growing::elements;
 use crate::handles;
 use crate::mesh::{azulejo_mesh, collect};
 use crate::status::{Failure, azulejo_status};
 
 /// A geometry of triangles in a scene that the program has made with Embree. Embree does not report
-/// the sizes of its buffers, so the caller gives them. It has no struct_size and never grows.
+/// the sizes of its buffers, so the caller gives them.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_embree_geometry {
@@ -50,6 +51,8 @@ pub struct azulejo_embree_geometry {
 /// RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a size or a type is not that of the scene, the behaviour
 /// is undefined.
 ///
+/// geometry_size: sizeof(azulejo_embree_geometry).
+///
 /// out: the mesh, to be freed with azulejo_mesh_free.
 ///
 /// O(vertices + triangles).
@@ -61,6 +64,7 @@ pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     scene: *mut c_void,
     geometries: *const azulejo_embree_geometry,
     geometry_count: usize,
+    geometry_size: usize,
     out: *mut *mut azulejo_mesh,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -68,13 +72,15 @@ pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     handles::create(out, || {
         check_pointer("scene", scene)?;
         // SAFETY: handed on from the caller.
-        let geometries = unsafe { rows::<_, 1>("geometries", geometries, "geometry_count", geometry_count) }?;
-        geometries.iter().enumerate().try_for_each(|(number, [geometry])| geometry.check(number))?;
-        let ids = collect("geometries", geometries.iter().map(|[geometry]| geometry.geometry_id))?;
+        let geometries = unsafe {
+            elements(["geometries", "geometry_count", "geometry_size"], geometries, geometry_count, geometry_size)
+        }?;
+        geometries.iter().enumerate().try_for_each(|(number, geometry)| geometry.check(number))?;
+        let ids = collect("geometries", geometries.iter().map(|geometry| geometry.geometry_id))?;
         // SAFETY: the caller's word.
         let buffers = unsafe { host_buffers(scene, &ids) }?;
         let (mut positions, mut triangles) = (Vec::new(), Vec::new());
-        for ([geometry], buffers) in geometries.iter().zip(buffers) {
+        for (geometry, buffers) in geometries.iter().zip(buffers) {
             let first = u32::try_from(positions.len()).unwrap_or(u32::MAX);
             // SAFETY: the caller's word for the sizes; Embree's for the places.
             let (vertices, indices) = unsafe {

@@ -6,7 +6,7 @@
 
 use std::slice;
 
-use crate::boundary::{self, check_pointer};
+use crate::boundary::{self, check_pointer, check_size};
 use crate::status::{Failure, azulejo_status};
 
 /// No struct of a caller is longer: a garbage `struct_size` is refused before the struct's tail is read.
@@ -141,6 +141,47 @@ impl<T: Growing> Output<T> {
     }
 }
 
+/// A copy of the caller's array of structs, whose size is an argument of the call instead of a field: elements that are
+/// shorter than here are refused, in longer ones the part that is unknown here must be zero.
+///
+/// # Safety
+/// Unless the checks fail, `elements` leads to `count` elements of `size` bytes each, and any bytes are valid for a `T`.
+pub(crate) unsafe fn elements<T: Copy>(
+    [argument, count_argument, size_argument]: [&str; 3],
+    elements: *const T,
+    count: usize,
+    size: usize,
+) -> Result<Vec<T>, Failure> {
+    check_element_size::<T>(size_argument, size)?;
+    if count == 0 {
+        return Ok(Vec::new());
+    }
+    check_pointer(argument, elements)?;
+    let bytes = check_size(count_argument, count, count.checked_mul(size))?;
+    // SAFETY: not NULL, of a possible size; the rest is the caller's word.
+    let bytes = unsafe { slice::from_raw_parts(elements.cast::<u8>(), bytes) };
+    let element = |(i, bytes): (usize, &[u8])| {
+        let (known, unknown) = bytes.split_at(size_of::<T>());
+        if unknown.iter().any(|&byte| byte != 0) {
+            let reason =
+                format!("[{i}]: {size_argument} is {size}, and what is set beyond {} is not known here", known.len());
+            return Err(Failure::invalid(argument, reason));
+        }
+        // SAFETY: as many bytes as a `T` has, and any bytes are valid for it.
+        Ok(unsafe { known.as_ptr().cast::<T>().read_unaligned() })
+    };
+    bytes.chunks_exact(size).enumerate().map(element).collect()
+}
+
+/// Refuses a size of elements that is too small, too large, or leaves the second one misaligned.
+pub(crate) fn check_element_size<T>(argument: &str, size: usize) -> Result<(), Failure> {
+    let least = size_of::<T>();
+    if (least..=MAX_STRUCT_SIZE).contains(&size) && size.is_multiple_of(align_of::<T>()) {
+        return Ok(());
+    }
+    Err(Failure::invalid(argument, format!("{size} is not the size of the struct, which has {least} bytes here")))
+}
+
 /// The size that the caller's struct says it has, and the bytes of it that are whole fields known here.
 ///
 /// # Safety
@@ -174,7 +215,7 @@ mod tests {
     #[derive(Clone, Copy, Debug, PartialEq)]
     struct Version2 {
         struct_size: u32,
-        kind: i32,
+        kind: u32,
         radius: f64,
         seed: u64,
         limit: f64,
@@ -214,6 +255,27 @@ mod tests {
         memory[4] = 1;
         assert!(read_sized(&mut memory, 32).is_ok());
         assert!(read_sized(&mut memory, 33).is_err());
+    }
+
+    #[test]
+    fn elements_are_read_by_the_caller_s_size() {
+        let names = ["pieces", "piece_count", "piece_size"];
+        let memory: Memory = [1, 2, 0, 3, 4, 0, 0, 7];
+        let read = |count: usize, size: usize| {
+            // SAFETY: the memory is larger than what is read.
+            unsafe { elements::<[u64; 2]>(names, memory.as_ptr().cast(), count, size) }
+        };
+        assert_eq!(read(2, 16).unwrap(), [[1, 2], [0, 3]]);
+        assert_eq!(read(2, 24).unwrap(), [[1, 2], [3, 4]]);
+        for (count, size) in [(2, 8), (2, 20), (2, 4104), (1, 64), (0, 0)] {
+            assert!(read(count, size).is_err(), "{count} elements of {size} bytes");
+        }
+        assert!(read(0, 16).unwrap().is_empty());
+        // SAFETY: refused before anything is read.
+        unsafe {
+            assert!(elements::<[u64; 2]>(names, std::ptr::null(), 1, 16).is_err());
+            assert!(elements::<[u64; 2]>(names, memory.as_ptr().cast(), usize::MAX, 16).is_err());
+        }
     }
 
     #[test]

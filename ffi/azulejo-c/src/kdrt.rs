@@ -28,7 +28,7 @@ pub struct azulejo_kdrt_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    pub boundary: i32,
+    pub boundary: u32,
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
     /// there is a `count`, from which the radius follows, and in calls with classes, which have
@@ -52,10 +52,9 @@ pub struct azulejo_kdrt_options {
     /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
     /// streams and planes that are kept, which are made by radius.
     pub count: usize,
-    /// 1: azulejo_kdrt_sample measures the `coverage` in its report, which takes much longer than
-    /// the sampling. Default 0. Must be 0 where there is no report: with the report NULL, and in
-    /// other calls.
-    pub measure_coverage: u32,
+    /// 1: azulejo_kdrt_sample measures the `covering_radius` in its report, which takes much longer
+    /// than the sampling. Default 0. Must be 0 with the report NULL, and in other calls.
+    pub measure_covering_radius: u32,
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well. Must be any for streams, which come
     /// place by place.
@@ -93,7 +92,7 @@ growing!(azulejo_kdrt_options requires radius {
     progress: None,
     progress_user: std::ptr::null_mut(),
     count: 0,
-    measure_coverage: 0,
+    measure_covering_radius: 0,
     order: AZULEJO_ORDER_ANY,
     quotient: 0.0,
     coarsest: 0.0,
@@ -114,13 +113,14 @@ pub unsafe extern "C" fn azulejo_kdrt_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// The report of azulejo_kdrt_sample.
+/// The report of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
+/// azulejo_maximal_sample.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_report {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// 1 if the set is maximal for `radius`, else 0.
+    /// 1 if the set, of which a window has a part, is maximal for `radius`, else 0.
     pub is_maximal: u32,
     /// The number of samples; the `count` of the options if there is one.
     pub samples: u64,
@@ -128,9 +128,9 @@ pub struct azulejo_kdrt_report {
     /// No two samples are closer.
     pub radius: f64,
     /// The covering radius as azulejo_plane_covering_radius measures it, in the units of the
-    /// domain, if the options have `measure_coverage`; else -1.
-    pub coverage: f64,
-    /// Wall time in seconds, without the measuring of `coverage`.
+    /// domain, if the options have `measure_covering_radius`; else -1.
+    pub covering_radius: f64,
+    /// Wall time in seconds, without the measuring of `covering_radius`.
     pub seconds: f64,
 }
 
@@ -138,9 +138,20 @@ growing!(azulejo_kdrt_report requires samples {
     is_maximal: 0,
     samples: 0,
     radius: 0.0,
-    coverage: 0.0,
+    covering_radius: 0.0,
     seconds: 0.0,
 });
+
+/// The report of a number of samples of a maximal set, whose coverage is not measured.
+pub(crate) fn of_samples(count: usize, radius: f64) -> azulejo_kdrt_report {
+    azulejo_kdrt_report {
+        is_maximal: 1,
+        samples: count as u64,
+        radius,
+        covering_radius: -1.0,
+        ..azulejo_kdrt_report::DEFAULT
+    }
+}
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
 ///
@@ -191,12 +202,12 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
 /// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
 /// were made again take the places of others in the order.
 ///
-/// report: what the call achieved, or NULL. It costs nothing unless `measure_coverage` is 1; then
-/// progress includes the measuring.
+/// report: what the call achieved, or NULL. It costs nothing unless `measure_covering_radius` is 1;
+/// then progress includes the measuring.
 ///
 /// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
 /// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
-/// Measuring the coverage takes O(samples * log samples).
+/// Measuring the covering radius takes O(samples * log samples).
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
 /// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
@@ -215,24 +226,18 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
         let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
-        let measured = options.measures_coverage()?;
+        let measured = options.measures_covering_radius()?;
         if measured && report.is_none() {
-            return Err(Failure::invalid("measure_coverage", "1, but report is NULL"));
+            return Err(Failure::invalid("measure_covering_radius", "1, but report is NULL"));
         }
         let start = Instant::now();
         let sampling = if measured { SAMPLING_SHARE } else { 1.0 };
         let (set, radius, is_maximal) = options.sample(context, options.watch().part(0.0, sampling))?;
         let seconds = start.elapsed().as_secs_f64();
-        let coverage = if measured { options.coverage(context, &set.positions)? } else { -1.0 };
+        let covering_radius = if measured { options.measured_radius(context, &set.positions)? } else { -1.0 };
         if let Some(report) = report {
-            report.write(azulejo_kdrt_report {
-                is_maximal: is_maximal.into(),
-                samples: set.len() as u64,
-                radius,
-                coverage,
-                seconds,
-                ..azulejo_kdrt_report::DEFAULT
-            });
+            let is_maximal = is_maximal.into();
+            report.write(azulejo_kdrt_report { is_maximal, covering_radius, seconds, ..of_samples(set.len(), radius) });
         }
         Ok(azulejo_points::plane(set))
     })
@@ -267,6 +272,8 @@ const PATTERN_SHARE: f64 = 0.05;
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
+/// report: what the call achieved, or NULL.
+///
 /// O(samples in and around the window) time and memory, and in every call the making of the
 /// pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
 /// azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
@@ -281,6 +288,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     window_min: *const f64,
     window_max: *const f64,
     out: *mut *mut azulejo_points,
+    report: *mut azulejo_kdrt_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let out = unsafe { Out::new(out) };
@@ -288,12 +296,17 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
         // SAFETY: handed on from the caller.
         let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
-        let (options, min, max) = unsafe {
-            (growing::read("options", options)?, pair("window_min", window_min)?, pair("window_max", window_max)?)
-        };
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
+        let start = Instant::now();
         let request = options.by_radius_only()?;
         let samples = context
             .run(options.watch(), |context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
+        if let Some(report) = report {
+            let seconds = start.elapsed().as_secs_f64();
+            report.write(azulejo_kdrt_report { seconds, ..of_samples(samples.len(), options.radius) });
+        }
         Ok(azulejo_points::plane(samples))
     })
 }
@@ -302,11 +315,12 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
 ///
 /// user: the `user` of the call.
 ///
-/// xy: the samples, x y each, valid until the callback returns; `count` of them, at least one.
+/// positions: the samples, x y each, valid until the callback returns; `count` of them, at least
+/// one.
 ///
 /// Returns 0 to continue, any other value to cancel the call.
 pub type azulejo_kdrt_visit_fn =
-    Option<unsafe extern "C-unwind" fn(user: *mut c_void, xy: *const f32, count: usize) -> i32>;
+    Option<unsafe extern "C-unwind" fn(user: *mut c_void, positions: *const f32, count: usize) -> u32>;
 
 /// Makes the set of azulejo_kdrt_sample and passes it to a callback part by part, in its order,
 /// instead of keeping it: for sets of any size that are written or consumed at once.
@@ -318,6 +332,8 @@ pub type azulejo_kdrt_visit_fn =
 /// the context make the next parts.
 ///
 /// user: passed to `visit`.
+///
+/// report: what the call achieved, or NULL.
 ///
 /// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
 /// tiled is made as a whole and is one part.
@@ -331,18 +347,21 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
     options: *const azulejo_kdrt_options,
     visit: azulejo_kdrt_visit_fn,
     user: *mut c_void,
+    report: *mut azulejo_kdrt_report,
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: handed on from the caller.
         let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { growing::read("options", options) }?;
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         let request = options.by_radius_only()?;
         let visit = required("visit", visit)?;
         if !matches!(request.kind, Kind::Plain(_)) {
             return Err(Failure::invalid("order", "a stream comes place by place, in no progressive order"));
         }
+        let (start, mut count) = (Instant::now(), 0);
         let visit = |samples: &[[f32; 2]]| {
+            count += samples.len();
             // SAFETY: the caller gave the two for each other, to be called on this thread during this call.
             match unsafe { visit(user, samples.as_ptr().cast(), samples.len()) } {
                 0 => ControlFlow::Continue(()),
@@ -351,18 +370,23 @@ pub unsafe extern "C" fn azulejo_kdrt_stream(
         };
         let (made, streamed) = (options.watch().part(0.0, PATTERN_SHARE), options.watch().part(PATTERN_SHARE, 1.0));
         let plane = context.run(made, |context, progress| Plane::new(context, &request, progress))?;
-        context.run(streamed, |context, progress| plane.stream(context, visit, progress))
+        context.run(streamed, |context, progress| plane.stream(context, visit, progress))?;
+        if let Some(report) = report {
+            let seconds = start.elapsed().as_secs_f64();
+            report.write(azulejo_kdrt_report { seconds, ..of_samples(count, options.radius) });
+        }
+        Ok(())
     })
 }
 
 impl azulejo_kdrt_options {
     /// The flags, of which one is to be set.
-    fn measures_coverage(&self) -> Result<bool, Failure> {
-        flag("measure_coverage", self.measure_coverage)
+    fn measures_covering_radius(&self) -> Result<bool, Failure> {
+        flag("measure_covering_radius", self.measure_covering_radius)
     }
 
     /// The covering radius of the samples, as the last part of the call.
-    fn coverage(&self, context: &azulejo_context, samples: &[[f32; 2]]) -> Result<f64, Failure> {
+    fn measured_radius(&self, context: &azulejo_context, samples: &[[f32; 2]]) -> Result<f64, Failure> {
         let domain = self.domain()?;
         let watch = self.watch().part(SAMPLING_SHARE, 1.0);
         context.run(watch, |context, progress| covering_radius_2d(context, &domain, samples, progress))
@@ -394,8 +418,11 @@ impl azulejo_kdrt_options {
             let reason = format!("{} is not 0; windows and streams are made by radius, not by number", self.count);
             return Err(Failure::invalid("count", reason));
         }
-        if self.measures_coverage()? {
-            return Err(Failure::invalid("measure_coverage", "1 is not 0; windows and streams have no report"));
+        if self.measures_covering_radius()? {
+            return Err(Failure::invalid(
+                "measure_covering_radius",
+                "1 is not 0; windows and streams are not measured",
+            ));
         }
         self.by_radius()
     }
@@ -404,7 +431,7 @@ impl azulejo_kdrt_options {
     pub(crate) fn with_classes<'a>(&'a self, classes: &'a Classes) -> Result<kdrt::Options<'a>, Failure> {
         check_unused("radius", self.radius, 0.0, "with classes")?;
         check_unused("count", self.count, 0, "with classes")?;
-        check_unused("measure_coverage", self.measures_coverage()?, false, "with classes")?;
+        check_unused("measure_covering_radius", self.measures_covering_radius()?, false, "with classes")?;
         if self.levels()?.is_some() {
             return Err(Failure::invalid("order", "sets of several classes have no progressive order"));
         }

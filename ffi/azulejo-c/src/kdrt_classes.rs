@@ -26,8 +26,8 @@ use crate::status::azulejo_status;
 /// equal give other shares than two equal ones: 1 and 0.9 give 1 and 0.68.
 ///
 /// options: `radius` must be 0, since classes have radii of their own; `count` and
-/// `measure_coverage` must be 0 and `order` any. `given_clearances`, if not NULL, has given_count
-/// rows, each with a clearance for each class; NULL: each class's own radius.
+/// `measure_covering_radius` must be 0 and `order` any. `given_clearances`, if not NULL, has
+/// given_count rows, each with a clearance for each class; NULL: each class's own radius.
 ///
 /// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
 /// order.

@@ -12,9 +12,9 @@
 //!   azulejo_kdrt_options_init(&options, sizeof options);
 //!   options.radius = 0.01;
 //!   if (azulejo_kdrt_sample(context, &options, &points, NULL) == AZULEJO_OK) {
-//!       const float *xy = azulejo_points_positions(points);
+//!       const float *positions = azulejo_points_positions(points);
 //!       size_t count = azulejo_points_count(points);
-//!       ... xy[2 * i] and xy[2 * i + 1] for i from 0 to count - 1 ...
+//!       ... positions[2 * i] and positions[2 * i + 1] for i from 0 to count - 1 ...
 //!       azulejo_points_free(points);
 //!   }
 //!   azulejo_context_free(context);
@@ -72,7 +72,14 @@
 //!   struct_size out of range, a non-zero field beyond the known ones, an unknown constant, a flag
 //!   other than 0 and 1, and an option that its text excludes from the call are refused. A reserved
 //!   field must be 0 in options and is 0 in reports. The options of azulejo_X and azulejo_X_verb
-//!   are azulejo_X_options, the report azulejo_X_report.
+//!   are azulejo_X_options, the report azulejo_X_report. Structs that a call takes an array of have
+//!   no struct_size; the call takes their size, and the same holds.
+//!
+//! Types. Attributes that the host has for each vertex, pixel or sample are float: positions,
+//!   normals, barycentrics, radii of vertices, densities, ranks. Distances by which conflicts are
+//!   judged are double: radius, clearances, radii of samples and classes, corners of the domain, and
+//!   all figures of reports. Constants, flags and what callbacks return are uint32_t, sizes and
+//!   counts of arrays size_t. Results come last: `out`, then `report`.
 //!
 //! Progress. A call with a context calls a progress callback on the thread that made the call: the
 //!   one in its options or, if that is NULL, the one of the context (azulejo_context_watch). It

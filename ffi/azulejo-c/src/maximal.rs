@@ -1,14 +1,16 @@
 //! The unbiased reference: maximal Poisson-disk sampling by dart throwing.
 
 use std::ffi::c_void;
+use std::time::Instant;
 
 use azulejo_core::maximal;
 
 use crate::boundary::Out;
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::growing::{self, growing};
+use crate::growing::{self, Output, growing};
 use crate::handles;
+use crate::kdrt::{azulejo_kdrt_report, of_samples};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::azulejo_status;
@@ -20,7 +22,7 @@ pub struct azulejo_maximal_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    pub boundary: i32,
+    pub boundary: u32,
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default.
     pub radius: f64,
@@ -69,6 +71,8 @@ pub unsafe extern "C" fn azulejo_maximal_options_init(
 ///
 /// out: the samples, x y each, to be freed with azulejo_points_free.
 ///
+/// report: what the call achieved, or NULL.
+///
 /// O(samples) time and memory.
 ///
 /// Errors: as azulejo_kdrt_sample.
@@ -77,6 +81,7 @@ pub unsafe extern "C" fn azulejo_maximal_sample(
     context: *const azulejo_context,
     options: *const azulejo_maximal_options,
     out: *mut *mut azulejo_points,
+    report: *mut azulejo_kdrt_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let out = unsafe { Out::new(out) };
@@ -84,11 +89,17 @@ pub unsafe extern "C" fn azulejo_maximal_sample(
         // SAFETY: handed on from the caller.
         let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { growing::read("options", options) }?;
+        let (options, report): (azulejo_maximal_options, _) =
+            unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        let start = Instant::now();
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = maximal::Options::new(options.radius).domain(domain).seed(options.seed);
         let watch = Watch::new(options.progress, options.progress_user);
         let samples = context.run(watch, |context, progress| maximal::sample(context, &request, progress))?;
+        if let Some(report) = report {
+            let seconds = start.elapsed().as_secs_f64();
+            report.write(azulejo_kdrt_report { seconds, ..of_samples(samples.len(), options.radius) });
+        }
         Ok(azulejo_points::plane(samples))
     })
 }

@@ -8,7 +8,7 @@ use azulejo_core::kdrt::{self, MergeOptions, MergeReport, Piece};
 use crate::boundary::{Out, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::growing::{self, Growing, Output, growing};
+use crate::growing::{self, Growing, Output, elements, growing};
 use crate::handles;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
@@ -21,7 +21,7 @@ pub struct azulejo_kdrt_merge_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    pub boundary: i32,
+    pub boundary: u32,
     /// The smallest distance between two samples, that of the pieces, in the units of the domain:
     /// above 0, and at least 64 times the spacing of floats at the largest coordinate. It has no
     /// default.
@@ -62,13 +62,13 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
 }
 
 /// A set of samples that was made independently, such as by azulejo_kdrt_sample on a bounded domain
-/// or by azulejo_kdrt_sample_window. It has no struct_size and never grows.
+/// or by azulejo_kdrt_sample_window.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_merge_piece {
     /// The samples, x y each, with min <= x < max, no two of them closer than the radius; read
     /// during the call only. They need not be maximal. NULL if there are none.
-    pub xy: *const f32,
+    pub positions: *const f32,
     /// The number of samples.
     pub count: usize,
     /// The lower corner of the piece's rectangle, x y.
@@ -127,6 +127,8 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
 ///
 /// pieces: `piece_count` of them, in the domain; NULL if there are none.
 ///
+/// piece_size: sizeof(azulejo_kdrt_merge_piece).
+///
 /// fixed: the points that must stay, x y each, with domain_min <= x < domain_max, no two of them
 /// closer than the radius; `fixed_count` of them; NULL if there are none.
 ///
@@ -148,6 +150,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
     options: *const azulejo_kdrt_merge_options,
     pieces: *const azulejo_kdrt_merge_piece,
     piece_count: usize,
+    piece_size: usize,
     fixed: *const f32,
     fixed_count: usize,
     out: *mut *mut azulejo_points,
@@ -161,7 +164,12 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
         // SAFETY: handed on from the caller.
         let (options, pieces, fixed, report) = unsafe {
             let fixed = rows::<f32, 2>("fixed", fixed, "fixed_count", fixed_count)?;
-            (growing::read("options", options)?, read(pieces, piece_count)?, fixed, Output::optional("report", report)?)
+            (
+                growing::read("options", options)?,
+                read(pieces, piece_count, piece_size)?,
+                fixed,
+                Output::optional("report", report)?,
+            )
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
         let request = MergeOptions::new(options.radius).domain(domain).seed(options.seed);
@@ -178,16 +186,20 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
 /// The caller's pieces as the core wants them.
 ///
 /// # Safety
-/// Unless the checks fail, `pieces` leads to `count` pieces and each of them to its
+/// Unless the checks fail, `pieces` leads to `count` pieces of `size` bytes and each of them to its
 /// samples, which are not changed during `'a`.
-unsafe fn read<'a>(pieces: *const azulejo_kdrt_merge_piece, count: usize) -> Result<Vec<Piece<'a>>, Failure> {
-    // SAFETY: handed on from the caller.
-    let pieces = unsafe { rows::<azulejo_kdrt_merge_piece, 1>("pieces", pieces, "piece_count", count) }?;
-    let read = |(i, &[piece]): (usize, &[azulejo_kdrt_merge_piece; 1])| {
-        let [xy, count] = ["xy", "count"].map(|field| format!("pieces: [{i}].{field}"));
+unsafe fn read<'a>(
+    pieces: *const azulejo_kdrt_merge_piece,
+    count: usize,
+    size: usize,
+) -> Result<Vec<Piece<'a>>, Failure> {
+    // SAFETY: handed on from the caller; integers, floats and a pointer that is checked below.
+    let pieces = unsafe { elements(["pieces", "piece_count", "piece_size"], pieces, count, size) }?;
+    let read = |(i, piece): (usize, azulejo_kdrt_merge_piece)| {
+        let [positions, count] = ["positions", "count"].map(|field| format!("pieces: [{i}].{field}"));
         // SAFETY: handed on from the caller.
-        let samples = unsafe { rows::<f32, 2>(&xy, piece.xy, &count, piece.count) }?;
+        let samples = unsafe { rows::<f32, 2>(&positions, piece.positions, &count, piece.count) }?;
         Ok(Piece { samples, min: piece.min, max: piece.max })
     };
-    pieces.iter().enumerate().map(read).collect()
+    pieces.into_iter().enumerate().map(read).collect()
 }

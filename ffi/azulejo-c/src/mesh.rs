@@ -296,7 +296,7 @@ pub unsafe extern "C" fn azulejo_mesh_points(
 
 /// 1 if the mesh carries normals besides those of its triangles, else 0; 0 for NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_mesh_has_normals(mesh: *const azulejo_mesh) -> i32 {
+pub unsafe extern "C" fn azulejo_mesh_has_normals(mesh: *const azulejo_mesh) -> u32 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.is_some_and(|mesh| mesh.shared.has_normals()).into()
 }

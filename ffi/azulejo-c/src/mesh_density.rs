@@ -21,7 +21,7 @@ use crate::status::{Failure, azulejo_status};
 /// one thread, and must be thread-safe. It must give the same density for the same position, return
 /// (see "Callbacks" at the top), and must not call the library with the same context.
 ///
-/// user: the `user` of the azulejo_mesh_density.
+/// user: the `function_user` of the azulejo_mesh_density.
 ///
 /// position: x y z of a place on the mesh.
 ///
@@ -48,7 +48,7 @@ pub struct azulejo_mesh_density {
     /// Gives the density at a position. Default NULL.
     pub function: azulejo_mesh_density_fn,
     /// Passed to `function`.
-    pub user: *mut c_void,
+    pub function_user: *mut c_void,
     /// The largest value of `function`, above 0. Must be 0, the default, without a function, and
     /// with `at_vertices`.
     pub largest: f64,
@@ -93,7 +93,7 @@ growing!(azulejo_mesh_density requires count {
     vertex_values: std::ptr::null(),
     vertex_count: 0,
     function: None,
-    user: std::ptr::null_mut(),
+    function_user: std::ptr::null_mut(),
     largest: 0.0,
     slope: 0.0,
     image: std::ptr::null(),
@@ -165,7 +165,7 @@ impl azulejo_mesh_density {
         }
         let call = |density: Density| body(Radius::Density { density, scale });
         if let Some(function) = self.function {
-            let callback = Callback { function, user: self.user };
+            let callback = Callback { function, user: self.function_user };
             let at = |position| callback.call(position);
             return call(if at_vertices {
                 Density::AtVertices(&at)

@@ -12,7 +12,7 @@ use azulejo_core::Progress;
 /// done: the fraction of the call that is done, from 0 to 1; it never decreases.
 ///
 /// Returns 0 to continue, any other value to cancel the call.
-pub type azulejo_progress_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, done: f64) -> i32>;
+pub type azulejo_progress_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, done: f64) -> u32>;
 
 /// A callback with its user, and the part of the caller's call that it is to see as a range of its
 /// own.

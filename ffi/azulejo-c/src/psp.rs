@@ -82,18 +82,18 @@ handle!(azulejo_psp);
 
 /// If two candidates of an iteration are too close, the one that its projector faces more squarely
 /// is kept: the default, which finds more samples. Existing samples are always kept.
-pub const AZULEJO_PRIORITY_SQUARENESS: i32 = 0;
+pub const AZULEJO_PRIORITY_SQUARENESS: u32 = 0;
 /// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2). Existing
 /// samples are always kept.
-pub const AZULEJO_PRIORITY_PROJECTOR: i32 = 1;
+pub const AZULEJO_PRIORITY_PROJECTOR: u32 = 1;
 
 /// Ray packets of Embree find where patterns meet the mesh: the default.
-pub const AZULEJO_ENGINE_EMBREE: i32 = 0;
+pub const AZULEJO_ENGINE_EMBREE: u32 = 0;
 /// Triangles are rasterised over the patterns in exact integer arithmetic (thesis section 3.4.3):
 /// the result does not depend on the machine or on Embree. The hits are those of Embree except for
 /// rounding, which moves points and edges relative to each other by up to 2e-7 of the mesh's
 /// diagonal: a point so close to an edge may hit the triangle on its other side.
-pub const AZULEJO_ENGINE_RASTERISER: i32 = 1;
+pub const AZULEJO_ENGINE_RASTERISER: u32 = 1;
 
 /// The number of iterations of azulejo_psp_options that stands for a rule.
 pub const AZULEJO_ITERATIONS_DEFAULT: u32 = 0xffff_ffff;
@@ -124,10 +124,10 @@ pub struct azulejo_psp_options {
     /// any value but the default.
     pub maximal: u32,
     /// An AZULEJO_PRIORITY_ constant; default squareness.
-    pub priority: i32,
+    pub priority: u32,
     /// An AZULEJO_ENGINE_ constant; default Embree, or the rasteriser in a library without Embree
     /// (azulejo_has_embree).
-    pub engine: i32,
+    pub engine: u32,
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well. The set is filled only, as by default:
     /// `iterations` above 0 and a `maximal` of 0 are refused. Must be any in azulejo_psp_create.
@@ -272,7 +272,7 @@ impl azulejo_psp_options {
     }
 }
 
-fn priority(value: i32) -> Result<Priority, Failure> {
+fn priority(value: u32) -> Result<Priority, Failure> {
     match value {
         AZULEJO_PRIORITY_SQUARENESS => Ok(Priority::Squareness),
         AZULEJO_PRIORITY_PROJECTOR => Ok(Priority::Projector),
@@ -280,7 +280,7 @@ fn priority(value: i32) -> Result<Priority, Failure> {
     }
 }
 
-fn engine(value: i32) -> Result<Engine, Failure> {
+fn engine(value: u32) -> Result<Engine, Failure> {
     match value {
         AZULEJO_ENGINE_EMBREE => Ok(Engine::Embree),
         AZULEJO_ENGINE_RASTERISER => Ok(Engine::Rasteriser),
@@ -430,8 +430,8 @@ pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
 /// `maximal` is 1, azulejo_psp_fill, with one progress for all.
 ///
 /// With a `count` the set has exactly so many samples: no two are closer than `radius` in the
-/// report, and every place of the surface is within `coverage` of one, in most cases less than 1.1
-/// times that radius. It takes about twice the time of a set of known radius.
+/// report, and every place of the surface is within `covering_radius` of one, in most cases less
+/// than 1.1 times that radius. It takes about twice the time of a set of known radius.
 ///
 /// In progressive order the samples are sorted coarse to fine (azulejo_points_ranks), from a single
 /// one on: the first of them, any number, are at least as far apart as their last rank, and cover

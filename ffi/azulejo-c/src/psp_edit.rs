@@ -252,7 +252,8 @@ pub unsafe extern "C" fn azulejo_psp_refill(
 ///
 /// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
 ///
-/// report: what the call did, or NULL; `rho` is 0, and `coverage` and `uncovered_after` are -1.
+/// report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after` are
+/// -1.
 ///
 /// O(surface in the region + given samples + triangles / 16); the first call on a mesh
 /// O(triangles).

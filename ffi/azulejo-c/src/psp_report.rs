@@ -59,7 +59,7 @@ pub struct azulejo_psp_report {
     /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
     /// a little more for a count. Where `radius` is not a distance, the bound of what radii are
     /// multiplied by. Else -1.
-    pub coverage: f64,
+    pub covering_radius: f64,
 }
 
 growing!(azulejo_psp_report requires samples {
@@ -80,7 +80,7 @@ growing!(azulejo_psp_report requires samples {
     uncovered_before: 0.0,
     uncovered_after: 0.0,
     radius: 0.0,
-    coverage: 0.0,
+    covering_radius: 0.0,
 });
 
 impl From<Report> for azulejo_psp_report {
@@ -103,7 +103,7 @@ impl From<Report> for azulejo_psp_report {
             uncovered_before: report.uncovered_before.unwrap_or(-1.0),
             uncovered_after: report.uncovered_after.unwrap_or(-1.0),
             radius: report.radius,
-            coverage: report.coverage.unwrap_or(-1.0),
+            covering_radius: report.covering_radius.unwrap_or(-1.0),
             ..Self::DEFAULT
         }
     }

@@ -22,8 +22,7 @@ pub struct azulejo_spectrum {
 
 handle!(azulejo_spectrum);
 
-/// The frequencies of about one length: a point of the radial curves. It has no struct_size and
-/// never grows.
+/// The frequencies of about one length: a point of the radial curves.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_annulus {
@@ -104,9 +103,9 @@ pub unsafe extern "C" fn azulejo_spectrum_report_init(
 /// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
 /// width and 1 / height.
 ///
-/// stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that the spectra
-/// of large sets reach as far as those of small ones. For all figures, size * stride of about 13 *
-/// sqrt(count) is enough on a square.
+/// frequency_stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that
+/// the spectra of large sets reach as far as those of small ones. For all figures, size *
+/// frequency_stride of about 13 * sqrt(count) is enough on a square.
 ///
 /// out: the spectrum, to be freed with azulejo_spectrum_free.
 ///
@@ -119,7 +118,7 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
     context: *const azulejo_context,
     set: *const azulejo_plane_set,
     size: u32,
-    stride: u32,
+    frequency_stride: u32,
     out: *mut *mut azulejo_spectrum,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -127,7 +126,7 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
     handles::create(out, || {
         // SAFETY: handed on from the caller.
         let set = unsafe { PlaneSet::read(context, set) }?;
-        let [size, stride] = [size, stride].map(|number| number as usize);
+        let [size, stride] = [size, frequency_stride].map(|number| number as usize);
         let periodogram = set.run(|context, domain, points, progress| {
             sparse_periodogram(context, domain, points, size, stride, progress)
         })?;
@@ -186,6 +185,8 @@ pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectru
 /// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
 /// `capacity` is 0.
 ///
+/// annulus_size: sizeof(azulejo_annulus).
+///
 /// out_count: their number, which may exceed the capacity.
 ///
 /// O(size^2) time on the calling thread.
@@ -197,6 +198,7 @@ pub unsafe extern "C" fn azulejo_spectrum_radial(
     width: f64,
     annuli: *mut azulejo_annulus,
     capacity: usize,
+    annulus_size: usize,
     out_count: *mut usize,
 ) -> azulejo_status {
     boundary::call(|| {
@@ -205,13 +207,14 @@ pub unsafe extern "C" fn azulejo_spectrum_radial(
         out_count.check("out_count")?;
         // SAFETY: handed on from the caller.
         let spectrum = unsafe { handles::get("spectrum", spectrum) }?;
+        growing::check_element_size::<azulejo_annulus>("annulus_size", annulus_size)?;
         if capacity > 0 {
             check_pointer("annuli", annuli.cast_const())?;
         }
         let curve: Vec<_> = spectrum.periodogram.radial(width)?.into_iter().map(azulejo_annulus::from).collect();
-        if capacity > 0 {
-            // SAFETY: not more than the caller's capacity.
-            unsafe { boundary::write(annuli, &curve[..capacity.min(curve.len())]) };
+        for (i, &annulus) in curve.iter().take(capacity).enumerate() {
+            // SAFETY: below the caller's capacity, and no longer than the caller's elements.
+            unsafe { annuli.byte_add(i * annulus_size).write(annulus) };
         }
         out_count.write(curve.len());
         Ok(())

@@ -61,7 +61,7 @@ pub struct azulejo_dcr_surface_report {
     /// The steps made.
     pub iterations: u32,
     /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    pub stopped: i32,
+    pub stopped: u32,
     /// Always 0.
     pub reserved: u32,
     /// Half of the distance that samples moved over the last 10 steps, root mean square, in units

@@ -1,13 +1,14 @@
 //! Thinning: some points of a cloud, far from each other and near to all the others.
 
 use std::ffi::c_void;
+use std::time::Instant;
 
 use azulejo_core::Order;
 use azulejo_core::thin::{Options, Selection, thin};
 
 use crate::boundary::{Out, array, rows};
 use crate::context::azulejo_context;
-use crate::growing::{self, growing};
+use crate::growing::{self, Growing, Output, growing};
 use crate::handles::{self, handle};
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
@@ -78,6 +79,37 @@ pub unsafe extern "C" fn azulejo_thin_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
+/// The report of azulejo_thin.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_thin_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// The number of selected points.
+    pub samples: u64,
+    /// No two selected points are closer: the radius by which they were selected, otherwise the
+    /// smallest distance of two. Infinite for less than two points.
+    pub radius: f64,
+    /// Wall time in seconds.
+    pub seconds: f64,
+}
+
+growing!(azulejo_thin_report requires samples { reserved: 0, samples: 0, radius: 0.0, seconds: 0.0 });
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_thin_report_init(
+    report: *mut azulejo_thin_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
 impl azulejo_thin_options {
     fn request(&self) -> Result<Options, Failure> {
         let order = order(self.order)?;
@@ -105,9 +137,11 @@ handle!(azulejo_selection);
 /// positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
 /// coincide: by radius one of them is selected, in the progressive order they come last.
 ///
-/// dimensions: the number of coordinates of a point, 2 or 3.
+/// dimension: the number of coordinates of a point, 2 or 3.
 ///
 /// out: the selected points, to be freed with azulejo_selection_free.
+///
+/// report: what the call did, or NULL.
 ///
 /// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
 /// made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of the
@@ -121,8 +155,9 @@ pub unsafe extern "C" fn azulejo_thin(
     options: *const azulejo_thin_options,
     positions: *const f32,
     count: usize,
-    dimensions: u32,
+    dimension: u32,
     out: *mut *mut azulejo_selection,
+    report: *mut azulejo_thin_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let out = unsafe { Out::new(out) };
@@ -130,14 +165,23 @@ pub unsafe extern "C" fn azulejo_thin(
         // SAFETY: handed on from the caller.
         let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { growing::read("options", options) }?;
-        let selection = match dimensions {
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        let start = Instant::now();
+        let selection = match dimension {
             // SAFETY: handed on from the caller.
             2 => select(context, &options, unsafe { rows::<f32, 2>("positions", positions, "count", count) }?),
             // SAFETY: handed on from the caller.
             3 => select(context, &options, unsafe { rows::<f32, 3>("positions", positions, "count", count) }?),
-            other => Err(Failure::invalid("dimensions", format!("{other} is neither 2 nor 3"))),
+            other => Err(Failure::invalid("dimension", format!("{other} is neither 2 nor 3"))),
         }?;
+        if let Some(report) = report {
+            report.write(azulejo_thin_report {
+                samples: selection.indices.len() as u64,
+                radius: selection.radius,
+                seconds: start.elapsed().as_secs_f64(),
+                ..azulejo_thin_report::DEFAULT
+            });
+        }
         Ok(azulejo_selection { selection })
     })
 }
@@ -189,7 +233,6 @@ pub unsafe extern "C" fn azulejo_selection_free(selection: *mut azulejo_selectio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::growing::Growing;
 
     #[test]
     fn the_defaults_are_those_of_the_core() {

@@ -25,8 +25,8 @@ pub extern "C" fn azulejo_version() -> u32 {
 /// Embree is loaded by the first call that uses it. If the machine has none, such calls are refused
 /// with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_has_embree() -> i32 {
-    i32::from(HAS_EMBREE)
+pub extern "C" fn azulejo_has_embree() -> u32 {
+    u32::from(HAS_EMBREE)
 }
 
 #[cfg(test)]

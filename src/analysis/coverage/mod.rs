@@ -77,7 +77,7 @@ pub fn coverage_2d(
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`xy`);
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn covering_radius_2d(
     context: &Context,

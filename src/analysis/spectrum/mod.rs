@@ -55,7 +55,7 @@ pub struct Periodogram {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], points that are not
-/// finite, or none in the domain (`xy`); [`Error::Cancelled`].
+/// finite, or none in the domain (`positions`); [`Error::Cancelled`].
 pub fn periodogram(
     context: &Context,
     domain: &Domain,
@@ -81,13 +81,13 @@ pub fn sparse_periodogram(
     progress: Option<&Progress>,
 ) -> Result<Periodogram> {
     domain.check()?;
-    check::range("stride", stride, 1..=MAX_STRIDE)?;
+    check::range("frequency_stride", stride, 1..=MAX_STRIDE)?;
     check::range("size", size, 2..=MAX_SIZE)?;
-    check::finite("xy", "point", points)?;
+    check::finite("positions", "point", points)?;
     let weighted = weigh(domain, points, stride as f64);
     let energy: f64 = weighted.iter().map(|point| point.weight * point.weight).sum();
     if energy == 0.0 {
-        return Err(Error::invalid("xy", "no point in the domain".to_owned()));
+        return Err(Error::invalid("positions", "no point in the domain".to_owned()));
     }
     let density = match domain.boundary {
         Boundary::Periodic => points.len() as f64 / domain.area(),

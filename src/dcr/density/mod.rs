@@ -114,7 +114,7 @@ pub fn relax_with_density(
     options.check()?;
     density.check()?;
     options.domain.check_points(points)?;
-    require_memory("xy", points.len())?;
+    require_memory("positions", points.len())?;
     let mut set = context.run(None, |job| {
         let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
         DensityRelaxation::new(&job.part(0.5, 1.0), options.domain, options.seed, raster, points)
@@ -372,7 +372,7 @@ impl PlaneRelaxation for DensityRelaxation {
     }
 
     /// The largest circumradius in units of the spacing that the density at its centre asks for.
-    fn coverage(&mut self, job: &Job) -> Result<f64> {
+    fn covering_radius(&mut self, job: &Job) -> Result<f64> {
         let delaunay = self.triangulate(job, &self.places)?;
         let relative =
             |(centre, radius): (DVec2, f64)| radius * f64::from(self.raster.density(self.torus.place(centre))).sqrt();

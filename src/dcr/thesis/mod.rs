@@ -288,8 +288,8 @@ impl PlaneRelaxation for ThesisRelaxation {
         relaxed
     }
 
-    fn coverage(&mut self, job: &Job) -> Result<f64> {
-        Ok(Delaunay::new(job, &self.frame, self.particle_positions())?.coverage() * self.frame.spacing())
+    fn covering_radius(&mut self, job: &Job) -> Result<f64> {
+        Ok(Delaunay::new(job, &self.frame, self.particle_positions())?.covering_radius() * self.frame.spacing())
     }
 }
 

@@ -325,10 +325,10 @@ impl PlaneRelaxation for ClassRelaxation {
         self.order.leave(&self.space(), &self.places, points)
     }
 
-    fn coverage(&mut self, job: &Job) -> Result<f64> {
+    fn covering_radius(&mut self, job: &Job) -> Result<f64> {
         let union = &mut self.subsets[0];
         union.follow(&self.places);
-        Ok(union.triangulate(job)?.coverage() * union.torus.frame.spacing())
+        Ok(union.triangulate(job)?.covering_radius() * union.torus.frame.spacing())
     }
 }
 
@@ -341,7 +341,7 @@ pub struct ClassReport {
     /// The smallest distance between two of its points, in units of d_max; infinite for less than two.
     pub rho: f64,
     /// The largest distance of a position in the domain from its points, in units of d_max; infinite for no point.
-    pub coverage: f64,
+    pub relative_covering_radius: f64,
 }
 
 /// Relaxes points of several classes: spread more evenly are the union of all, and each class by itself. Returns as
@@ -380,7 +380,7 @@ pub fn relax_classes(
         let reason = format!("[{index}] is {}, not below {}", classes[index], Classes::MOST);
         return Err(Error::invalid("classes", reason));
     }
-    require_memory("xy", points.len())?;
+    require_memory("positions", points.len())?;
     let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
     let (relaxed, report) = relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)?;
     let count = classes.iter().max().map_or(0, |&last| last + 1);
@@ -402,5 +402,5 @@ fn of_class(
     let mut set = UniformRelaxation::new(options.domain, Neighbourhood::Delaunay, options.seed, &own);
     let steps = Steps { iterations: 0, stopped: Stopped::Steps, motion: 0.0 };
     let (_, report) = context.run(None, |job| measure(job, &options.domain, &own, &mut set, steps))?;
-    Ok(ClassReport { count: own.len(), rho: report.rho, coverage: report.coverage })
+    Ok(ClassReport { count: own.len(), rho: report.rho, relative_covering_radius: report.relative_covering_radius })
 }

@@ -155,7 +155,7 @@ impl FlipMesh {
     }
 
     /// The largest circumradius.
-    pub fn coverage(&self, job: &Job, places: &[TorusPoint]) -> Result<f64> {
+    pub fn covering_radius(&self, job: &Job, places: &[TorusPoint]) -> Result<f64> {
         let chunks = chunks(self.rings.len());
         let largest = job.map(chunks.len(), |chunk| {
             let squared = |point: usize| {
@@ -214,7 +214,7 @@ mod tests {
     fn anew(job: &Job, torus: &Torus, places: &[TorusPoint]) -> (FlipMesh, f64) {
         let delaunay = Delaunay::new(job, &torus.frame, torus.nudged(places).into_iter()).unwrap();
         let mesh = FlipMesh::of_delaunay(job, torus, places, &delaunay).unwrap().expect("there is a mesh");
-        (mesh, delaunay.coverage())
+        (mesh, delaunay.covering_radius())
     }
 
     /// The rings, each from its least neighbour on.
@@ -263,7 +263,7 @@ mod tests {
                         if boundary == Boundary::Periodic {
                             assert!(rings(&mesh) == rings(&built));
                         }
-                        assert!((mesh.coverage(job, &places)? - coverage).abs() < 1e-5);
+                        assert!((mesh.covering_radius(job, &places)? - coverage).abs() < 1e-5);
                     }
                     assert!(flipped > 10);
                     Ok(())

@@ -288,15 +288,15 @@ impl PlaneRelaxation for UniformRelaxation {
         self.order.leave(&self.torus, &self.state.places, points)
     }
 
-    fn coverage(&mut self, job: &Job) -> Result<f64> {
+    fn covering_radius(&mut self, job: &Job) -> Result<f64> {
         let places = &self.state.places;
         let mesh = match self.mesh.take() {
             Some(mesh) => Some(mesh),
             None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
         };
         let radius = match mesh {
-            Some(mesh) => mesh.coverage(&job.part(0.5, 1.0), places)?,
-            None => self.triangulate(&job.part(0.5, 1.0))?.coverage(),
+            Some(mesh) => mesh.covering_radius(&job.part(0.5, 1.0), places)?,
+            None => self.triangulate(&job.part(0.5, 1.0))?.covering_radius(),
         };
         Ok(radius * self.torus.frame.spacing())
     }

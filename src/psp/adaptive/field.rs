@@ -120,7 +120,7 @@ impl<'a> RadiusField<'a> {
     pub fn argument(&self) -> &'static str {
         match self.source {
             Source::Vertices(_) => "vertex_radii",
-            Source::Function { .. } => "radius",
+            Source::Function { .. } => "radius_function",
             Source::Density { .. } => "density",
         }
     }
@@ -319,7 +319,7 @@ impl<'a> RadiusField<'a> {
         let radius = at(position);
         if !(smallest..=largest).contains(&radius) {
             let reason = format!("{radius:?} at {position:?} is not in {smallest:?}..={largest:?}");
-            self.first_error.add(position, Error::invalid("radius", reason));
+            self.first_error.add(position, Error::invalid("radius_function", reason));
             return self.all.least;
         }
         radius.min(self.limit)
@@ -364,8 +364,7 @@ impl<'a> RadiusField<'a> {
             let place = position.to_array();
             let reason =
                 format!("{radius:?} at {place:?} is farther than slope {slope:?} allows from the values around");
-            let argument = if self.argument() == "density" { "density" } else { "radius" };
-            self.first_error.add(place, Error::invalid(argument, reason));
+            self.first_error.add(place, Error::invalid(self.argument(), reason));
         }
     }
 }

@@ -96,7 +96,7 @@ pub fn sample(
         let surface = ScaledSurface { mesh, field, facing, obstacles, last, estimate };
         if !is_ordered {
             let (samples, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), last, &[])?;
-            return Ok(LevelledSet { samples, radius: last, coverage: last, darts });
+            return Ok(LevelledSet { samples, radius: last, covering_radius: last, darts });
         }
         let (job, levels) = (&job.part(0.05, 1.0), Levels::new(surface, options.seed));
         match count {
@@ -107,7 +107,7 @@ pub fn sample(
     let radii = found.samples.iter().map(|(_, relative)| found.radius * relative).collect();
     let mut report = Report::of_fill(found.samples.len(), found.darts, &stopwatch);
     if is_ordered {
-        (report.radius, report.coverage) = (found.radius, Some(found.coverage));
+        (report.radius, report.covering_radius) = (found.radius, Some(found.covering_radius));
     }
     Ok((Points { radii, ..found.to_points(mesh, options.order) }, report))
 }

@@ -169,13 +169,13 @@ fn relaxed(sets: &[Relaxed]) -> String {
             "| {} | {} | {} | {} | {} | {:.3}, {:.3} |",
             mix.name,
             change(before.union.rho, after.union.rho),
-            change(before.union.coverage, after.union.coverage),
+            change(before.union.covering_radius, after.union.covering_radius),
             of_classes(|figures| figures.rho),
-            of_classes(|figures| figures.coverage),
+            of_classes(|figures| figures.covering_radius),
             alone.rho,
-            alone.coverage,
+            alone.covering_radius,
         );
-        let worst = |set: &Set| set.range(|figures| figures.coverage)[1].max(set.union.coverage);
+        let worst = |set: &Set| set.range(|figures| figures.covering_radius)[1].max(set.union.covering_radius);
         let nearest = |set: &Set| set.range(|figures| figures.rho)[0].min(set.union.rho);
         better += usize::from(worst(after) < worst(before));
         closer += usize::from(nearest(after) < nearest(before));

@@ -11,7 +11,7 @@ use super::sets::ends;
 #[derive(Clone, Copy)]
 pub struct Figures {
     pub rho: f64,
-    pub coverage: f64,
+    pub covering_radius: f64,
 }
 
 /// A set of several classes.
@@ -53,11 +53,14 @@ impl Relaxed {
         let relaxed = |steps: u32| -> Result<Set> {
             let options = options.max_iterations(steps);
             let (_, union, each) = dcr::relax_classes(context, &options, &set.positions, &set.classes, None)?;
-            let classes = each.iter().map(|of| Figures { rho: of.rho, coverage: of.coverage });
-            Ok(Set { union: Figures { rho: union.rho, coverage: union.coverage }, classes: classes.collect() })
+            let classes = each.iter().map(|of| Figures { rho: of.rho, covering_radius: of.relative_covering_radius });
+            Ok(Set {
+                union: Figures { rho: union.rho, covering_radius: union.relative_covering_radius },
+                classes: classes.collect(),
+            })
         };
         let (_, alone) = dcr::relax(context, &options.into(), &set.positions, None)?;
-        let alone = Figures { rho: alone.rho, coverage: alone.coverage };
+        let alone = Figures { rho: alone.rho, covering_radius: alone.relative_covering_radius };
         Ok(Self { mix, before: relaxed(0)?, after: relaxed(options.max_iterations)?, alone })
     }
 }

@@ -70,7 +70,13 @@ impl Stippled {
         let tone = Tone::new(image, count);
         let measure = |points: Vec<[f32; 2]>, seconds: f64| -> Result<Dots> {
             let (points, report) = dots::relaxed(context, image, &points, 0, progress)?;
-            Ok(Dots { errors: tone.errors(&points), points, rho: report.rho, cover: report.coverage, seconds })
+            Ok(Dots {
+                errors: tone.errors(&points),
+                points,
+                rho: report.rho,
+                cover: report.relative_covering_radius,
+                seconds,
+            })
         };
         let relax = |points: &[[f32; 2]]| -> Result<Dots> {
             let start = Instant::now();

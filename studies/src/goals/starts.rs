@@ -99,7 +99,14 @@ fn in_plane(study: &Study, boundary: Boundary) -> Result<Vec<Ended>> {
     let ended = |((start, rounds), report): ((&'static str, &Rounds), &Option<dcr::Report>)| {
         let report = report.as_ref()?;
         let time = Figure::ratio(rounds, &measured[0]);
-        Some(Ended { start, boundary, time, rho: report.rho, cover: report.coverage, steps: report.iterations })
+        Some(Ended {
+            start,
+            boundary,
+            time,
+            rho: report.rho,
+            cover: report.relative_covering_radius,
+            steps: report.iterations,
+        })
     };
     Ok(STARTS.into_iter().zip(&measured).zip(reports.borrow().iter()).filter_map(ended).collect())
 }

@@ -96,7 +96,7 @@ impl Measure<'_> {
         for seed in 0..self.effort.sets {
             let (set, report) = psp::sample(self.context, self.mesh, &Options::by_count(count).seed(seed), None)?;
             let [covering, smallest] = self.distances(&set.positions)?;
-            let covered = report.coverage.unwrap_or(f64::INFINITY);
+            let covered = report.covering_radius.unwrap_or(f64::INFINITY);
             right += usize::from(set.len() == count);
             ratio.push(covering / smallest);
             rho.push(smallest / self.hexagonal(count));

@@ -16,9 +16,9 @@ pub fn fault(domain: &Domain, relaxed: &[[f32; 2]], report: &Report) -> Option<S
         Some(format!("{} is not the quotient of {smallest} and {d_max}", report.rho))
     } else if !apart(smallest * (1.0 - 1e-12)) || apart(smallest * (1.0 + 1e-12)) {
         Some(format!("{smallest} is not the smallest distance"))
-    } else if !within(report.coverage * d_max * (1.0 + 1e-6) + common::float_spacing(domain)) {
+    } else if !within(report.relative_covering_radius * d_max * (1.0 + 1e-6) + common::float_spacing(domain)) {
         Some(format!("holes are larger: {report:?}"))
-    } else if within(report.coverage * d_max * (1.0 - 1e-6) - common::float_spacing(domain)) {
+    } else if within(report.relative_covering_radius * d_max * (1.0 - 1e-6) - common::float_spacing(domain)) {
         Some(format!("holes are smaller: {report:?}"))
     } else {
         None
