@@ -264,7 +264,7 @@ fn empty_sets_single_points_and_no_iterations_change_nothing() {
 
 /// The thesis's method parts coincident and collinear points before the first step; without a step it takes that back.
 #[test]
-fn without_a_step_the_coverage_is_that_of_the_given_points() {
+fn without_a_step_the_covering_radius_is_that_of_the_given_points() {
     let sets: [&[[f32; 2]]; 4] =
         [&[[0.3, 0.9999]], &[[0.25, 0.5]; 3], &[[0.1, 0.5], [0.4, 0.5], [0.8, 0.5]], &[[0.0, 0.0], [0.5, 0.5]]];
     for options in all_cases() {
@@ -273,7 +273,10 @@ fn without_a_step_the_coverage_is_that_of_the_given_points() {
             let farthest = covering_radius_2d(&Context::new(1).unwrap(), &options.domain, set, None).unwrap();
             let covering_radius = farthest / options.domain.hexagonal_distance(set.len());
             assert_eq!(relaxed, set);
-            assert!((report.coverage - covering_radius).abs() <= 1e-6, "{set:?}: {report:?}, {covering_radius}");
+            assert!(
+                (report.relative_covering_radius - covering_radius).abs() <= 1e-6,
+                "{set:?}: {report:?}, {covering_radius}"
+            );
         }
     }
 }
