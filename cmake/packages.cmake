@@ -1,4 +1,4 @@
-# Debian packages: libazulejo0.2 (of version 0.2), the shared library, libazulejo0.2-dbgsym, its debugging information,
+# Debian packages: libazulejo0.3 (of version 0.3), the shared library, libazulejo0.3-dbgsym, its debugging information,
 # and libazulejo-dev, what programs are built with.
 #
 #   cmake -S . -B build -DCMAKE_INSTALL_PREFIX=/usr && cmake --build build && (cd build && cpack -G DEB)

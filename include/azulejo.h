@@ -176,13 +176,13 @@
 
 /// The minor version of this header. It changes when something is added; before 1.0 also when
 /// programs must be changed.
-#define AZULEJO_VERSION_MINOR 2
+#define AZULEJO_VERSION_MINOR 3
 
 /// The patch version of this header.
 #define AZULEJO_VERSION_PATCH 0
 
 /// The version of this header as one number: major * 10000 + minor * 100 + patch.
-#define AZULEJO_VERSION 200
+#define AZULEJO_VERSION 300
 
 /// The domain is a torus: distances wrap with the period domain_max - domain_min.
 #define AZULEJO_BOUNDARY_PERIODIC 0

@@ -6,11 +6,11 @@ use azulejo_core::trace::HAS_EMBREE;
 pub const AZULEJO_VERSION_MAJOR: u32 = 0;
 /// The minor version of this header. It changes when something is added; before 1.0 also when
 /// programs must be changed.
-pub const AZULEJO_VERSION_MINOR: u32 = 2;
+pub const AZULEJO_VERSION_MINOR: u32 = 3;
 /// The patch version of this header.
 pub const AZULEJO_VERSION_PATCH: u32 = 0;
 /// The version of this header as one number: major * 10000 + minor * 100 + patch.
-pub const AZULEJO_VERSION: u32 = 200;
+pub const AZULEJO_VERSION: u32 = 300;
 
 /// The version of the library that the program runs with, to be compared with AZULEJO_VERSION.
 #[unsafe(no_mangle)]
