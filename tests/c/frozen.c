@@ -1,4 +1,4 @@
-/* A program that was compiled with the header of 0.2: its structs, frozen, each right before a page that must not be
+/* A program that was compiled with the structs of 0.2, by the names of 0.3: its structs, frozen, each right before a page that must not be
    touched. It works with this library as it did with that one; structs have grown at their end at most. */
 
 #include <stddef.h>
