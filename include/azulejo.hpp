@@ -1,5 +1,5 @@
 // azulejo for C++17: azulejo.h with owners instead of handles, arrays and points as C++ programs
-// have them, and options that start with their defaults. Header only; copy it beside azulejo.h.
+// have them, and options that start with their defaults. Header only; copy it beside azulejo.h and azulejo/.
 //
 // The units, ranges, errors and thread rules of a call are documented in azulejo.h under the name
 // of the C function, which each comment here gives.

@@ -28,7 +28,12 @@ fuzz_target!(|bytes: &[u8]| {
     } else {
         let guest = Guest::new(&options, &mut input);
         let user = (&raw const guest).cast_mut().cast();
-        relax(&options, &azulejo_density { function: Some(density_at), function_user: user, ..none() }, &points, guest.kind == 7);
+        relax(
+            &options,
+            &azulejo_density { function: Some(density_at), function_user: user, ..none() },
+            &points,
+            guest.kind == 7,
+        );
     }
 });
 

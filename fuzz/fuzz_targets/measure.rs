@@ -113,7 +113,9 @@ impl Set {
         let mut annuli = vec![azulejo_annulus { frequency: -1.0, power: -1.0, anisotropy: -1.0, count: 0 }; capacity];
         let start = if capacity == 0 { std::ptr::null_mut() } else { annuli.as_mut_ptr() };
         // SAFETY: the array has this capacity.
-        let radial = |out: Out<_>| unsafe { azulejo_spectrum_radial(mean.get(), width, start, capacity, size_of::<azulejo_annulus>(), out) };
+        let radial = |out: Out<_>| unsafe {
+            azulejo_spectrum_radial(mean.get(), width, start, capacity, size_of::<azulejo_annulus>(), out)
+        };
         if let Some(count) = value(radial) {
             assert!(annuli.iter().take(count).all(|annulus| annulus.count >= 2 && annulus.power >= 0.0));
         }

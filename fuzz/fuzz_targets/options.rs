@@ -129,12 +129,27 @@ fn kdrt(input: &mut Input, patience: &Patience) {
     unsafe {
         create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
         patience.again(0);
-        create(|out| azulejo_kdrt_sample_window(context(), options, corners[0].as_ptr(), corners[1].as_ptr(), out, std::ptr::null_mut()));
+        create(|out| {
+            azulejo_kdrt_sample_window(
+                context(),
+                options,
+                corners[0].as_ptr(),
+                corners[1].as_ptr(),
+                out,
+                std::ptr::null_mut(),
+            )
+        });
         patience.again(0);
         accepted(azulejo_kdrt_stream(context(), options, None, null_mut(), std::ptr::null_mut()));
         let mut visitor = Visitor::default();
         patience.again(if input.one_in(2) { PATIENCE } else { 0 });
-        if accepted(azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast(), std::ptr::null_mut())) {
+        if accepted(azulejo_kdrt_stream(
+            context(),
+            options,
+            Some(visit),
+            (&raw mut visitor).cast(),
+            std::ptr::null_mut(),
+        )) {
             patience.again(u32::MAX);
             let set = create(|out| azulejo_kdrt_sample(context(), options, out, null_mut()));
             let set = set.expect("what is streamed can be sampled");
@@ -180,7 +195,19 @@ fn merge(input: &mut Input, patience: &Patience) {
     let piece = azulejo_kdrt_merge_piece { positions: xy.as_ptr(), count: 1, min: [0.0; 2], max: [1.0; 2] };
     let null = std::ptr::null();
     // SAFETY: the options have the size in their `struct_size`, the piece has one sample.
-    create(|out| unsafe { azulejo_kdrt_merge(context(), memory.start.cast(), &piece, 1, size_of::<azulejo_kdrt_merge_piece>(), null, 0, out, null_mut()) });
+    create(|out| unsafe {
+        azulejo_kdrt_merge(
+            context(),
+            memory.start.cast(),
+            &piece,
+            1,
+            size_of::<azulejo_kdrt_merge_piece>(),
+            null,
+            0,
+            out,
+            null_mut(),
+        )
+    });
 }
 
 fn triangle() -> Owned<azulejo_mesh> {

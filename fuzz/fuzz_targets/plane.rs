@@ -102,7 +102,9 @@ fn maximal(options: &azulejo_kdrt_options) {
         progress_user,
     };
     // SAFETY: the options have the size in their `struct_size`.
-    let Some(set) = create(|out| unsafe { azulejo_maximal_sample(context(), &request, out, std::ptr::null_mut()) }).map(Set::of) else {
+    let Some(set) =
+        create(|out| unsafe { azulejo_maximal_sample(context(), &request, out, std::ptr::null_mut()) }).map(Set::of)
+    else {
         return;
     };
     check(options, &set.positions);
@@ -125,8 +127,9 @@ fn window(options: &azulejo_kdrt_options, given: &Given, patience: &Patience, in
     let [low, high] = [0, 1]
         .map(|_| -> [f64; 2] { std::array::from_fn(|axis| options.domain_min[axis] + f64::from(input.coordinate())) });
     // SAFETY: the options have the size in their `struct_size`, and the corners two numbers each.
-    let call =
-        |out: Out<_>| unsafe { azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out, std::ptr::null_mut()) };
+    let call = |out: Out<_>| unsafe {
+        azulejo_kdrt_sample_window(context(), options, low.as_ptr(), high.as_ptr(), out, std::ptr::null_mut())
+    };
     let Some(part) = create(call).map(Set::of) else { return };
     check_set(options, given, &part);
     patience.again(u32::MAX);
@@ -169,7 +172,9 @@ unsafe extern "C-unwind" fn visit(user: *mut c_void, positions: *const f32, coun
 fn stream(options: &azulejo_kdrt_options, given: &Given, visits: u32) {
     let mut visitor = Visitor { left: visits, samples: Vec::new() };
     // SAFETY: the options have the size in their `struct_size`, and the visitor lives.
-    let status = unsafe { azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast(), std::ptr::null_mut()) };
+    let status = unsafe {
+        azulejo_kdrt_stream(context(), options, Some(visit), (&raw mut visitor).cast(), std::ptr::null_mut())
+    };
     let is_whole = accepted(status);
     // Without the callback that may have lost its patience.
     let Some(whole) = create_set(&azulejo_kdrt_options { progress: None, ..*options }) else {
@@ -212,7 +217,17 @@ fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
     let pieces = [piece(0), piece(1)];
     // SAFETY: all arrays have the given lengths.
     let call = |out: Out<_>| unsafe {
-        azulejo_kdrt_merge(context(), &request, pieces.as_ptr(), 2, size_of::<azulejo_kdrt_merge_piece>(), fixed.as_ptr().cast(), fixed.len(), out, null_mut())
+        azulejo_kdrt_merge(
+            context(),
+            &request,
+            pieces.as_ptr(),
+            2,
+            size_of::<azulejo_kdrt_merge_piece>(),
+            fixed.as_ptr().cast(),
+            fixed.len(),
+            out,
+            null_mut(),
+        )
     };
     let Some(set) = create(call).map(Set::of) else { return };
     check(options, &set.positions);

@@ -55,7 +55,8 @@ fn in_classes(options: &azulejo_dcr_options, points: &[[f32; 2]], input: &mut In
             rho_of,
             coverage_of,
             out,
-            &raw mut report)
+            &raw mut report,
+        )
     };
     let Some(relaxed) = create(call) else { return };
     let (relaxed, _) = Arrays::of(&relaxed).positions.as_chunks::<2>();

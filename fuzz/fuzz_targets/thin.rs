@@ -2,6 +2,7 @@
 
 #![no_main]
 
+use azulejo_c::order::AZULEJO_ORDER_PROGRESSIVE;
 use azulejo_c::thin::*;
 use azulejo_fuzz::calls::{Out, Owned, Patience, array, context, create};
 use azulejo_fuzz::input::Input;
@@ -29,7 +30,8 @@ fn thinned<const D: usize>(input: &mut Input) {
     let count = if dimensions == 3 && D == 2 { cloud.len() / 2 } else { cloud.len() };
     let (start, options) = (cloud.as_ptr().cast(), &options);
     // SAFETY: the options have the size in their `struct_size`, and there are so many points.
-    let call = |out: Out<_>| unsafe { azulejo_thin(context(), options, start, count, dimensions, out, std::ptr::null_mut()) };
+    let call =
+        |out: Out<_>| unsafe { azulejo_thin(context(), options, start, count, dimensions, out, std::ptr::null_mut()) };
     let Some(selection) = create(call) else { return };
     if dimensions == D as u32 {
         check(&cloud, options, &selection);

@@ -4,11 +4,11 @@ use std::ptr::null_mut;
 
 use azulejo_c::classes::azulejo_classes;
 use azulejo_c::mesh::*;
+use azulejo_c::order::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 use azulejo_c::points::{azulejo_points, azulejo_points_classes, azulejo_points_count};
 use azulejo_c::psp::*;
 use azulejo_c::psp_classes::*;
 use azulejo_c::psp_report::azulejo_psp_report_init;
-use azulejo_c::thin::{AZULEJO_ORDER_ANY, AZULEJO_ORDER_PROGRESSIVE};
 
 use crate::calls::{Arrays, Out, Owned, Patience, accepted, array, check_distances, context, create, report};
 use crate::coverage::{Ball, Field, uncovered};

@@ -6,7 +6,7 @@ use std::ptr::null_mut;
 
 use azulejo_c::adaptive::*;
 use azulejo_c::mesh::*;
-use azulejo_c::thin::AZULEJO_ORDER_ANY;
+use azulejo_c::order::AZULEJO_ORDER_ANY;
 
 use crate::calls::{Arrays, Out, Owned, check_distances, context, create};
 use crate::coverage::{Ball, Field, uncovered};

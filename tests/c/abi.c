@@ -428,7 +428,7 @@ static void signatures(void) {
 
 int main(void) {
     signatures();
-    CHECK(AZULEJO_VERSION_MAJOR == 0 && AZULEJO_VERSION_MINOR == 2); /* the numbers in the SONAME */
+    CHECK(AZULEJO_VERSION_MAJOR == 0 && AZULEJO_VERSION_MINOR == 3); /* the numbers in the SONAME */
     CHECK(AZULEJO_VERSION == AZULEJO_VERSION_MAJOR * 10000 + AZULEJO_VERSION_MINOR * 100 + AZULEJO_VERSION_PATCH);
     return finish();
 }

@@ -54,6 +54,12 @@ END
         diff - <(cd "$work/development" && find . ! -type d | LC_ALL=C sort) <<END
 ./usr/include/azulejo.h
 ./usr/include/azulejo.hpp
+./usr/include/azulejo/analysis.h
+./usr/include/azulejo/base.h
+./usr/include/azulejo/dcr.h
+./usr/include/azulejo/kdrt.h
+./usr/include/azulejo/psp.h
+./usr/include/azulejo/thin.h
 ./$libraries/cmake/azulejo/azulejo-config-version.cmake
 ./$libraries/cmake/azulejo/azulejo-config.cmake
 ./$libraries/cmake/azulejo/azulejo-targets.cmake

@@ -122,6 +122,9 @@ for source in "$here"/*.c "$here"/*.cpp; do
 done
 
 beside step "azulejo.h as C99" header_compiles c c99 azulejo.h
+for header in "$prefix"/include/azulejo/*.h; do
+    beside step "azulejo/$(basename "$header") alone" header_compiles c c99 "azulejo/$(basename "$header")"
+done
 beside step "azulejo.h as C11" header_compiles c c11 azulejo.h
 beside step "azulejo.h as C++17" header_compiles c++ c++17 azulejo.h
 beside step "azulejo.hpp as C++17" header_compiles c++ c++17 azulejo.hpp

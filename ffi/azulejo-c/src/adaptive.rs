@@ -12,11 +12,11 @@ use crate::given::given;
 use crate::growing::{self, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
+use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
-use crate::thin::{AZULEJO_ORDER_ANY, order};
 
 /// Gives the radius at a position.
 ///

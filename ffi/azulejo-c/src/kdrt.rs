@@ -14,10 +14,10 @@ use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::given::given_by_class;
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles;
+use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
-use crate::thin::{AZULEJO_ORDER_ANY, order};
 
 /// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream,
 /// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and

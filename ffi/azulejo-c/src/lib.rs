@@ -19,11 +19,27 @@
 //!   }
 //!   azulejo_context_free(context);
 //!
-//! Contents: azulejo_kdrt_ maximal Poisson-disk sets in the plane, by radius or by number;
-//! azulejo_psp_ the same on triangle meshes, also with a radius that varies; azulejo_dcr_
-//! relaxation of point sets, in the plane, with a density, and on meshes; azulejo_thin points of a
-//! cloud that are far from each other; azulejo_maximal_ the slow unbiased reference; azulejo_plane_,
-//! azulejo_mesh_, azulejo_spectrum_ and azulejo_differences_ analysis.
+//! Which call do I want?
+//!
+//!   samples of a rectangle                        azulejo_kdrt_sample
+//!   a plane without end, part by part             azulejo_kdrt_create, azulejo_kdrt_window
+//!   more samples than memory holds                azulejo_kdrt_stream
+//!   a rectangle with a density, such as an image  azulejo_dcr_scatter, azulejo_dcr_relax_density
+//!   samples of a mesh                             azulejo_psp_sample
+//!   a mesh whose radius or density varies         azulejo_psp_adaptive_sample, _with_density
+//!   a mesh under a brush: erase, refill, undo     azulejo_psp_create, azulejo_psp_erase, _refill
+//!   several kinds of things, such as plants       azulejo_kdrt_sample_classes, azulejo_psp_...
+//!   levels of detail, which are prefixes          the same calls, with `order` progressive
+//!   sets that exist, joined without seams         azulejo_kdrt_merge
+//!   fewer points of a cloud that exists           azulejo_thin
+//!   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax
+//!   a mesh whose vertices are the samples         azulejo_dcr_remesh
+//!   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_mesh_coverage,
+//!                                                 azulejo_spectrum_create
+//!   the slow unbiased reference                   azulejo_maximal_sample
+//!
+//! azulejo/base.h has what all calls share, azulejo/kdrt.h, psp.h, dcr.h, thin.h and analysis.h have
+//! the calls, each with its options before it. Each can be included alone.
 //!
 //! The following holds for every function unless its own text says otherwise.
 //!
@@ -143,6 +159,7 @@ pub mod progress;
 
 pub mod context;
 pub mod domain;
+pub mod order;
 pub mod points;
 
 pub mod classes;

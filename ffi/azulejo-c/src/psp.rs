@@ -16,11 +16,11 @@ use crate::given::given;
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles::{self, handle};
 use crate::mesh::azulejo_mesh;
+use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{AZULEJO_ERROR_BUSY, AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
-use crate::thin::{AZULEJO_ORDER_ANY, order};
 
 /// A set of samples on a mesh that can grow. It keeps its context and its mesh, which may be freed
 /// before it.

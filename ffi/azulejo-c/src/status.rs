@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn every_status_of_the_header_has_its_name() {
-        let header = include_str!("../../../include/azulejo.h");
+        let header = include_str!("../../../include/azulejo/base.h");
         let defined = header.lines().filter_map(|line| line.strip_prefix("#define ")?.split_once(' '));
         let defined: Vec<_> = defined
             .filter(|(name, _)| *name == "AZULEJO_OK" || name.starts_with("AZULEJO_ERROR_"))

@@ -3,29 +3,15 @@
 use std::ffi::c_void;
 use std::time::Instant;
 
-use azulejo_core::Order;
 use azulejo_core::thin::{Options, Selection, thin};
 
 use crate::boundary::{Out, array, rows};
 use crate::context::azulejo_context;
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles::{self, handle};
+use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
-
-/// In no particular order.
-pub const AZULEJO_ORDER_ANY: u32 = 0;
-/// Coarse to fine: the first points are a sparser set of the same kind, whatever their number.
-pub const AZULEJO_ORDER_PROGRESSIVE: u32 = 1;
-
-/// The order that a constant stands for.
-pub(crate) fn order(order: u32) -> Result<Order, Failure> {
-    match order {
-        AZULEJO_ORDER_ANY => Ok(Order::Any),
-        AZULEJO_ORDER_PROGRESSIVE => Ok(Order::Progressive),
-        other => Err(Failure::invalid("order", format!("{other} is no AZULEJO_ORDER_ constant"))),
-    }
-}
 
 /// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
 ///
@@ -233,6 +219,7 @@ pub unsafe extern "C" fn azulejo_selection_free(selection: *mut azulejo_selectio
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::order::AZULEJO_ORDER_PROGRESSIVE;
 
     #[test]
     fn the_defaults_are_those_of_the_core() {

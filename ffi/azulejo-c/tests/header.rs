@@ -1,28 +1,113 @@
-//! include/azulejo.h is what cbindgen makes of this crate, byte for byte. `AZULEJO_BLESS=1` writes it.
+//! include/azulejo.h and the headers below include/azulejo/ are what cbindgen makes of this crate, byte for byte.
+//! `AZULEJO_BLESS=1` writes them.
+//!
+//! Each source file has one topic, and its types stand before its calls. cbindgen would put the types of a whole crate
+//! before all calls, so it reads one file at a time.
 
 use std::{env, fs, path::Path};
 
 /// As wide as a line of the header may be.
 const COLUMNS: usize = 100;
 
+/// A header below include/azulejo/.
+struct Header {
+    name: &'static str,
+    /// Its page.
+    page: &'static str,
+    /// The source files, in the order of the header.
+    sources: &'static [&'static str],
+}
+
+/// The headers, in the order in which azulejo.h includes them.
+const HEADERS: [Header; 6] = [
+    Header {
+        name: "base",
+        page: "What all calls share: status codes, contexts, points, orders, classes and meshes.",
+        sources: &[
+            "status", "version", "progress", "context", "domain", "order", "points", "classes", "mesh", "embree",
+        ],
+    },
+    Header {
+        name: "kdrt",
+        page: "KDRT: maximal Poisson-disk sets in the plane, whole, in windows and in streams.",
+        sources: &["kdrt", "kept", "kdrt_classes", "merge", "maximal"],
+    },
+    Header {
+        name: "psp",
+        page: "PSP: maximal Poisson-disk sets on triangle meshes, also with a radius that varies.",
+        sources: &["psp_report", "psp", "psp_classes", "psp_edit", "adaptive", "mesh_density"],
+    },
+    Header {
+        name: "dcr",
+        page: "DCR: relaxation of point sets in the plane, with a density, and on meshes.",
+        sources: &["dcr", "density", "surface", "remesh"],
+    },
+    Header { name: "thin", page: "Thinning: points of a cloud that are far from each other.", sources: &["thin"] },
+    Header {
+        name: "analysis",
+        page: "Analysis: distances, coverage and spectra of sets.",
+        sources: &["analysis", "statistics", "spectrum", "differences"],
+    },
+];
+
 #[test]
-fn the_committed_header_is_the_generated_one() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut config = cbindgen::Config::from_file(root.join("cbindgen.toml")).unwrap();
-    config.header = Some(preamble(&fs::read_to_string(root.join("src/lib.rs")).unwrap()));
-
-    let mut generated = Vec::new();
-    cbindgen::generate_with_config(root, config).unwrap().write(&mut generated);
-    let generated = String::from_utf8(generated).unwrap();
-
-    let is_too_long = |line: &&str| line.chars().count() > COLUMNS;
-    assert_eq!(generated.lines().find(is_too_long), None, "a line of the header is longer than {COLUMNS} columns");
-
-    let path = root.join("../../include/azulejo.h");
-    if env::var_os("AZULEJO_BLESS").is_some() {
-        fs::write(&path, &generated).unwrap();
+fn the_committed_headers_are_the_generated_ones() {
+    let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let include = crate_root.join("../../include");
+    let mut declared = 0;
+    for header in &HEADERS {
+        let topics: Vec<String> = header.sources.iter().map(|source| topic(crate_root, source)).collect();
+        declared += topics.iter().map(|topic| topic.matches("azulejo_status azulejo_").count()).sum::<usize>();
+        let includes =
+            if header.name == "base" { "#include <stddef.h>\n#include <stdint.h>\n" } else { "#include \"base.h\"\n" };
+        let page = format!("/*\n * {}\n *\n * {GENERATED}\n */\n", header.page);
+        let linkage = |brace| format!("#ifdef __cplusplus\n{brace}\n#endif\n");
+        let body = [&linkage("extern \"C\" {"), &topics.join("\n"), &linkage("}")].map(String::as_str).join("\n");
+        let guard = format!("AZULEJO_{}_H", header.name.to_uppercase());
+        check(&include.join(format!("azulejo/{}.h", header.name)), &guarded(&guard, &page, includes, &body));
     }
-    let committed = fs::read_to_string(&path).unwrap_or_default();
+    assert!(declared > 50, "{declared} calls");
+
+    let all: String = HEADERS.iter().map(|header| format!("#include \"azulejo/{}.h\"\n", header.name)).collect();
+    let page = fs::read_to_string(crate_root.join("src/lib.rs")).unwrap();
+    check(&include.join("azulejo.h"), &guarded("AZULEJO_H", &preamble(&page), &all, ""));
+}
+
+const GENERATED: &str = "Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.";
+
+/// A page, and what it includes and declares, once.
+fn guarded(guard: &str, page: &str, includes: &str, body: &str) -> String {
+    let body = if body.is_empty() { String::new() } else { format!("{body}\n") };
+    format!("{page}\n#ifndef {guard}\n#define {guard}\n\n{includes}\n{body}#endif\n")
+}
+
+/// The types and calls of a source file.
+fn topic(crate_root: &Path, source: &str) -> String {
+    let mut config = cbindgen::Config::from_file(crate_root.join("cbindgen.toml")).unwrap();
+    let path = crate_root.join(format!("src/{source}.rs"));
+    // Types that only other files use are left out unless they are named.
+    let text = fs::read_to_string(&path).unwrap();
+    let types = text.lines().filter_map(|line| line.strip_prefix("pub struct ").or(line.strip_prefix("pub type ")));
+    config.export.include = types.filter_map(|line| line.split([' ', ';']).next()).map(str::to_owned).collect();
+    let mut generated = Vec::new();
+    cbindgen::Builder::new().with_config(config).with_src(path).generate().unwrap().write(&mut generated);
+    let generated = String::from_utf8(generated).unwrap();
+    // Types of the same file have a tag before their name, those of others have not.
+    let untagged = |line: &str| match line.starts_with("typedef struct ") {
+        true => format!("{line}\n"),
+        false => format!("{}\n", line.replace("struct azulejo_", "azulejo_")),
+    };
+    generated.lines().map(untagged).collect()
+}
+
+fn check(path: &Path, generated: &str) {
+    let is_too_long = |line: &&str| line.chars().count() > COLUMNS;
+    assert_eq!(generated.lines().find(is_too_long), None, "a line is longer than {COLUMNS} columns");
+    if env::var_os("AZULEJO_BLESS").is_some() {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, generated).unwrap();
+    }
+    let committed = fs::read_to_string(path).unwrap_or_default();
     let same = committed.lines().zip(generated.lines()).take_while(|(old, new)| old == new).count();
     assert!(committed == generated, "{} differs from line {}; AZULEJO_BLESS=1 rewrites it", path.display(), same + 1);
 }
@@ -31,5 +116,5 @@ fn the_committed_header_is_the_generated_one() {
 fn preamble(source: &str) -> String {
     let page = source.lines().map_while(|line| line.strip_prefix("//!"));
     let lines: String = page.map(|line| format!(" *{line}\n")).collect();
-    format!("/*\n{lines} */")
+    format!("/*\n{lines} */\n")
 }
