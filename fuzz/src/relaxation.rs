@@ -128,7 +128,7 @@ mod tests {
             let told = |distance: f64, covering_radius: f64| azulejo_dcr_report {
                 smallest_distance: distance,
                 rho: distance / unit,
-                covering_radius: coverage / unit,
+                relative_covering_radius: covering_radius / unit,
                 ..report(azulejo_dcr_report_init)
             };
             let smallest = (0..49).flat_map(|i| (0..i).map(move |j| (i, j)));
