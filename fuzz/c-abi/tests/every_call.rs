@@ -17,6 +17,7 @@ use azulejo_c::kept::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_c::mesh::*;
+use azulejo_c::order::*;
 use azulejo_c::points::*;
 use azulejo_c::psp::*;
 use azulejo_c::psp_classes::*;
@@ -142,17 +143,17 @@ fn read_and_free(points: Owned<azulejo_points>) -> usize {
 }
 
 /// Counts how often it is called.
-unsafe extern "C-unwind" fn count(user: *mut c_void, _: f64) -> i32 {
+unsafe extern "C-unwind" fn count(user: *mut c_void, _: f64) -> u32 {
     // SAFETY: the tests give it a number.
     unsafe { *user.cast::<u32>() += 1 };
     0
 }
 
-unsafe extern "C-unwind" fn stop(_: *mut c_void, _: f64) -> i32 {
+unsafe extern "C-unwind" fn stop(_: *mut c_void, _: f64) -> u32 {
     1
 }
 
-unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, samples: usize) -> i32 {
+unsafe extern "C-unwind" fn visit(user: *mut c_void, xy: *const f32, samples: usize) -> u32 {
     // SAFETY: the test gives it a number; the library gives it so many samples.
     unsafe {
         assert!((0..2 * samples).all(|i| xy.add(i).read() >= 0.0));
@@ -179,7 +180,9 @@ fn planes() {
         assert!(read_and_free(made(|out| azulejo_kdrt_sample(context.get(), &options, out, null_mut()))) > 2);
         let corners = [[0.0, 0.0], [0.5, 1.0f64]];
         let [low, high] = [corners[0].as_ptr(), corners[1].as_ptr()];
-        read_and_free(made(|out| azulejo_kdrt_sample_window(context.get(), &options, low, high, out)));
+        read_and_free(made(|out| {
+            azulejo_kdrt_sample_window(context.get(), &options, low, high, out, std::ptr::null_mut())
+        }));
         let plane = made(|out| azulejo_kdrt_create(context.get(), &options, out));
         read_and_free(made(|out| azulejo_kdrt_window(plane.get(), low, high, out)));
         drop(plane);
@@ -194,7 +197,10 @@ fn planes() {
         read_and_free(made(|out| azulejo_kdrt_window(plane.get(), low, high, out)));
         drop(plane);
         let mut visited = 0u32;
-        assert_eq!(azulejo_kdrt_stream(context.get(), &options, Some(visit), (&raw mut visited).cast()), AZULEJO_OK);
+        assert_eq!(
+            azulejo_kdrt_stream(context.get(), &options, Some(visit), (&raw mut visited).cast(), std::ptr::null_mut()),
+            AZULEJO_OK
+        );
         assert!(visited > 2 && calls > 0);
         options.progress = Some(stop);
         let mut none = null_mut();
@@ -202,16 +208,26 @@ fn planes() {
 
         let mut options = defaults(azulejo_maximal_options_init);
         options.radius = 0.5;
-        read_and_free(made(|out| azulejo_maximal_sample(context.get(), &options, out)));
+        read_and_free(made(|out| azulejo_maximal_sample(context.get(), &options, out, std::ptr::null_mut())));
 
         let mut options = defaults(azulejo_kdrt_merge_options_init);
         options.radius = 0.5;
         let xy = [0.25f32, 0.5];
-        let piece = azulejo_kdrt_merge_piece { xy: xy.as_ptr(), count: 1, min: [0.0; 2], max: [0.5, 1.0] };
+        let piece = azulejo_kdrt_merge_piece { positions: xy.as_ptr(), count: 1, min: [0.0; 2], max: [0.5, 1.0] };
         let fixed = [0.75f32, 0.5];
         let mut report = defaults(azulejo_kdrt_merge_report_init);
         let merge = |out: Out<_>| {
-            azulejo_kdrt_merge(context.get(), &options, &piece, 1, fixed.as_ptr(), 1, out, &raw mut report)
+            azulejo_kdrt_merge(
+                context.get(),
+                &options,
+                &piece,
+                1,
+                size_of::<azulejo_kdrt_merge_piece>(),
+                fixed.as_ptr(),
+                1,
+                out,
+                &raw mut report,
+            )
         };
         assert!(read_and_free(made(merge)) >= 2);
         assert_eq!(report.kept, 1);
@@ -227,8 +243,9 @@ fn clouds() {
     options.order = AZULEJO_ORDER_PROGRESSIVE;
     for (count, dimensions) in [(21, 2), (14, 3), (0, 2)] {
         // SAFETY: 21 points of the plane, 14 of space.
-        let selection =
-            made(|out| unsafe { azulejo_thin(context.get(), &options, cloud.as_ptr().cast(), count, dimensions, out) });
+        let selection = made(|out| unsafe {
+            azulejo_thin(context.get(), &options, cloud.as_ptr().cast(), count, dimensions, out, std::ptr::null_mut())
+        });
         assert_eq!(selection.read(azulejo_selection_count), count);
         let (indices, ranks) = (selection.read(azulejo_selection_indices), selection.read(azulejo_selection_ranks));
         for i in 0..count {
@@ -343,8 +360,8 @@ fn adaptive_surfaces() {
         }
         read_and_free(made(|out| azulejo_psp_adaptive_sample(context.get(), mesh.get(), &options, out, null_mut())));
         (options.vertex_radii, options.vertex_count) = (null(), 0);
-        options.radius = Some(radius_at);
-        (options.smallest, options.largest, options.slope, options.radius_user) = (0.8, 1.0, 0.1, null_mut());
+        options.radius_function = Some(radius_at);
+        (options.smallest, options.largest, options.slope, options.radius_function_user) = (0.8, 1.0, 0.1, null_mut());
         read_and_free(made(|out| azulejo_psp_adaptive_sample(context.get(), mesh.get(), &options, out, null_mut())));
     }
     drop(mesh);
@@ -369,7 +386,7 @@ fn points() {
         let (rho, coverage) = (rho.as_mut_ptr(), coverage.as_mut_ptr());
         let (xy_of, of) = (xy.as_ptr(), classes.as_ptr());
         let relax = |out: Out<_>| {
-            azulejo_dcr_relax_classes(context.get(), &options, xy_of, of, 3, 2, out, null_mut(), rho, coverage)
+            azulejo_dcr_relax_classes(context.get(), &options, xy_of, of, 3, 2, rho, coverage, out, null_mut())
         };
         assert_eq!(read_and_free(made(relax)), 3);
         let mut set = defaults(azulejo_plane_set_init);
