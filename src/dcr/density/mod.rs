@@ -92,8 +92,9 @@ pub fn is_density(value: f64) -> bool {
 /// Like [`relax`](fn@crate::dcr::relax), with these differences. In the report, lengths are in units of the *local
 /// spacing*: `d_max` for the mean density, as 1 / sqrt(density) elsewhere, but it grows by no more than half of the
 /// distance between positions, so that it is finite where the density is 0. [`Report::rho`] is the least of all
-/// distances over the mean of the spacings of the two points, [`Report::coverage`] the largest circumradius of a
-/// triangle over the spacing at its centre, without the limit to its growth. [`Report::motion`] is in units of `d_max`.
+/// distances over the mean of the spacings of the two points, [`Report::relative_covering_radius`] the largest
+/// circumradius of a triangle over the spacing at its centre, without the limit to its growth. [`Report::motion`] is in
+/// units of `d_max`.
 /// Details of the density that are finer than an eighth of `d_max` are lost. A call that is cancelled before the first
 /// step returns the points unchanged.
 ///
