@@ -860,6 +860,7 @@ struct Report : C {
 };
 
 using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
+using ClassesReport = Report<azulejo_classes_report, azulejo_classes_report_init>;
 using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
 using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
@@ -1303,10 +1304,11 @@ inline Status try_kdrt_sample(const Context &context, const KdrtOptions &options
 
 /// Samples of several classes in a rectangle; see azulejo_kdrt_sample_classes.
 inline Status try_kdrt_sample_classes(const Context &context, const KdrtOptions &options,
-                                      const Classes &classes, Points &out) {
+                                      const Classes &classes, Points &out,
+                                      ClassesReport *report = nullptr) {
     return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
         return detail::make(out, [&](auto **points) {
-            return azulejo_kdrt_sample_classes(context.get(), &options, &wanted, points);
+            return azulejo_kdrt_sample_classes(context.get(), &options, &wanted, points, report);
         });
     });
 }
@@ -1420,10 +1422,11 @@ inline Status try_psp_sample(const Context &context, const Mesh &mesh, const Psp
 /// Samples of a mesh of several classes at once; see azulejo_psp_sample_classes.
 inline Status try_psp_sample_classes(const Context &context, const Mesh &mesh,
                                      const PspOptions &options, const Classes &classes,
-                                     Points &out) {
+                                     Points &out, ClassesReport *report = nullptr) {
     return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
         return detail::make(out, [&](auto **points) {
-            return azulejo_psp_sample_classes(context.get(), mesh.get(), &options, &wanted, points);
+            return azulejo_psp_sample_classes(context.get(), mesh.get(), &options, &wanted, points,
+                                              report);
         });
     });
 }
@@ -1907,9 +1910,9 @@ inline Classes classes_radii(Span<const double> own, double factor = 1) {
 }
 
 inline Points kdrt_sample_classes(const Context &context, const KdrtOptions &options,
-                                  const Classes &classes) {
+                                  const Classes &classes, ClassesReport *report = nullptr) {
     Points points;
-    check(try_kdrt_sample_classes(context, options, classes, points));
+    check(try_kdrt_sample_classes(context, options, classes, points, report));
     return points;
 }
 
@@ -1971,9 +1974,10 @@ inline Points psp_sample(const Context &context, const Mesh &mesh, const PspOpti
 }
 
 inline Points psp_sample_classes(const Context &context, const Mesh &mesh,
-                                 const PspOptions &options, const Classes &classes) {
+                                 const PspOptions &options, const Classes &classes,
+                                 ClassesReport *report = nullptr) {
     Points points;
-    check(try_psp_sample_classes(context, mesh, options, classes, points));
+    check(try_psp_sample_classes(context, mesh, options, classes, points, report));
     return points;
 }
 

@@ -114,12 +114,15 @@ mod tests {
         assert_eq!(said(range("bins", 9, 1..=8)), "bins: 9 is not in 1..=8");
         assert_eq!(
             said(finite("positions", "point", &[[0.0, 1.0], [f32::NAN, 2.0]])),
-            "xy: point 1 is [NaN, 2.0], not finite"
+            "positions: point 1 is [NaN, 2.0], not finite"
         );
         let named = corners("indices", "vertex", "vertices", &[[0, 1, 2], [2, 3, 1]], 3);
         assert_eq!(said(named), "indices: triangle 1 names vertex 3, but there are 3 vertices");
         assert_eq!(said(triangles(&[0, 7], 7)), "triangles: [1] is 7, and the mesh has 7");
-        assert_eq!(said(indexable("positions", "points", 1 << 32)), "xy: 4294967296 points; the limit is 4294967295");
+        assert_eq!(
+            said(indexable("positions", "points", 1 << 32)),
+            "positions: 4294967296 points; the limit is 4294967295"
+        );
         let coarse = resolution("radius", 1.0, 0.5, "the largest coordinate");
         assert_eq!(said(coarse), "radius: 1.0 is below 32.0, 64 times the float spacing 0.5 at the largest coordinate");
     }

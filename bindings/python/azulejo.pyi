@@ -395,6 +395,8 @@ def psp_sample_classes(
     radii: ArrayLike,
     *,
     masks: Optional[ArrayLike] = None,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
     seed: SupportsIndex = 0,
     given_positions: Optional[ArrayLike] = None,
     given_clearances: Optional[ArrayLike] = None,

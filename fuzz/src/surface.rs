@@ -288,7 +288,9 @@ fn of_classes(mesh: &Owned<azulejo_mesh>, corners: &Corners, options: &azulejo_p
         ..*options
     };
     // SAFETY: the structs have the sizes in their `struct_size`, and the arrays as long.
-    let call = |out: Out<_>| unsafe { azulejo_psp_sample_classes(context(), mesh.get(), options, &classes, out) };
+    let call = |out: Out<_>| unsafe {
+        azulejo_psp_sample_classes(context(), mesh.get(), options, &classes, out, std::ptr::null_mut())
+    };
     let Some(points) = create(call) else { return };
     let set = Arrays::of(&points);
     corners.check(&set);

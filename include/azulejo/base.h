@@ -282,10 +282,30 @@ typedef struct azulejo_classes {
     size_t mask_count;
 } azulejo_classes;
 
+/// The report of azulejo_kdrt_sample_classes and azulejo_psp_sample_classes.
+typedef struct azulejo_classes_report {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// The number of classes.
+    uint32_t classes;
+    /// The number of samples.
+    uint64_t samples;
+    /// The number of samples of each class, 0 for those that there are not.
+    uint64_t counts[AZULEJO_MAX_CLASSES];
+    /// Wall time in seconds.
+    double seconds;
+} azulejo_classes_report;
+
 /// Writes the defaults. `struct_size` is sizeof *classes.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_classes_init(azulejo_classes *classes, size_t struct_size);
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_classes_report_init(azulejo_classes_report *report,
+                                           size_t struct_size);
 
 /// Makes a matrix of radii from those of each class alone, as in Wei, "Multi-class blue noise
 /// sampling", 2010: two classes keep the distance that a set of all samples of both, and of all
@@ -299,13 +319,10 @@ azulejo_status azulejo_classes_init(azulejo_classes *classes, size_t struct_size
 /// Wei's. Smaller factors leave each class nearer to the density that it has alone, and let samples
 /// of two classes come nearer to each other.
 ///
-/// matrix_out: count * count numbers, row by row.
+/// out: count * count numbers, row by row.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then matrix_out is not written.
-azulejo_status azulejo_classes_radii(const double *own,
-                                     uint32_t count,
-                                     double factor,
-                                     double *matrix_out);
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then out is not written.
+azulejo_status azulejo_classes_radii(const double *own, uint32_t count, double factor, double *out);
 
 /// A checked triangle mesh. Immutable: several threads may use it at once. Any triangle soup is
 /// accepted: open, non-manifold, of many parts and mixed winding. A mesh may carry normals and a

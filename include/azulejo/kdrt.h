@@ -303,6 +303,8 @@ void azulejo_kdrt_free(azulejo_kdrt *plane);
 /// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
 /// y and x; to be freed with azulejo_points_free.
 ///
+/// report: how many samples each class has, or NULL.
+///
 /// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
 /// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
 /// radii, these classes are filled by one thread, with 512 bytes per sample.
@@ -313,7 +315,8 @@ void azulejo_kdrt_free(azulejo_kdrt *plane);
 azulejo_status azulejo_kdrt_sample_classes(const azulejo_context *context,
                                            const azulejo_kdrt_options *options,
                                            const azulejo_classes *classes,
-                                           azulejo_points **out);
+                                           azulejo_points **out,
+                                           azulejo_classes_report *report);
 
 /// Makes what all windows of a plane of several classes need. azulejo_kdrt_window then makes any of
 /// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order, with

@@ -285,14 +285,25 @@ azulejo_status azulejo_psp_sample(const azulejo_context *context,
 /// radii have equal shares: two about 77 per cent each, eight 83, and two with factor 0.7 have 95.
 /// Of 1.1 and 1 the first has 100 and the second 68: shares jump where radii become equal.
 ///
-/// options: `radius` must be 0, as the classes have radii. `count`, `order`, `iterations`,
-/// `maximal`, `priority` and `engine` must have their defaults. `given_clearances` has a row for
-/// each given sample with a clearance for each class; NULL stands for each class's own radius.
+/// In progressive order the samples of each class are sorted coarse to fine, and
+/// azulejo_points_ranks has their ranks. The first samples of a class, any number of them, are at
+/// least as far apart as the last of their ranks. Of the classes of equal own radii R, the samples
+/// up to a rank t are at least r_ij * t / R apart (of infinite ranks, r_ij * d / R for the diagonal
+/// d of the mesh's box), and where these classes may stand every place is within `quotient` * r_ij
+/// * t / R of one of them, or within r_ij of a sample of a class of larger radius; of less than 100
+/// of them, within 2 or `quotient`^2 times that instead. So a host can show the first part of each
+/// class, near parts of a scene more than far ones. The order takes several times the time.
+///
+/// options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
+/// `priority` and `engine` must have their defaults. `given_clearances` has a row for each given
+/// sample with a clearance for each class; NULL stands for each class's own radius.
 ///
 /// classes: the radii, and where each class may stand.
 ///
 /// out: the samples with normals, triangles, barycentrics and azulejo_points_classes, by which they
 /// are sorted; to be freed with azulejo_points_free.
+///
+/// report: how many samples each class has, or NULL.
 ///
 /// With two classes each sample takes about twice the time of one of azulejo_psp_sample, with eight
 /// about four times; all triangles are visited once for each class.
@@ -304,7 +315,8 @@ azulejo_status azulejo_psp_sample_classes(const azulejo_context *context,
                                           const azulejo_mesh *mesh,
                                           const azulejo_psp_options *options,
                                           const azulejo_classes *classes,
-                                          azulejo_points **out);
+                                          azulejo_points **out,
+                                          azulejo_classes_report *report);
 
 /// A part of space: the points that lie in a box and within a distance of a centre, the boundary
 /// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`

@@ -274,12 +274,16 @@ pub struct ClassOptions<'a> {
     pub given: Given<'a, 3>,
     /// As in [`Options::cosine`].
     pub cosine: f64,
+    /// The order of the samples of each class.
+    pub order: Order,
+    /// As in [`Options::quotient`].
+    pub quotient: f64,
 }
 
 impl Default for ClassOptions<'_> {
     fn default() -> Self {
-        Self { seed: 0, given: Given::default(), cosine: -1.0 }
+        Self { seed: 0, given: Given::default(), cosine: -1.0, order: Order::Any, quotient: DEFAULT_QUOTIENT }
     }
 }
 
-setters!(ClassOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64 });
+setters!(ClassOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64, order: Order, quotient: f64 });

@@ -183,7 +183,7 @@ fn bad_arguments_are_refused_by_name() {
     assert!(RadialDistribution::mean(&[1, 2].map(|bins| distribution(&domain, &points, 1.0, bins))).is_err());
     for stride in [0, 5000] {
         let sparse = sparse_periodogram(&context(), &domain, &points, 8, stride, None);
-        assert!(matches!(sparse, Err(Error::InvalidArgument { argument: "stride", .. })));
+        assert!(matches!(sparse, Err(Error::InvalidArgument { argument: "frequency_stride", .. })));
     }
     let stop = |_| std::ops::ControlFlow::Break(());
     let stopped = radial_distribution(&context(), &domain, &points, 1.0, 5, Some(&stop));

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, ClassOptions, Options};
-use azulejo::{Classes, Context, Error, Given, Points};
+use azulejo::psp::{self, ClassOptions, DEFAULT_QUOTIENT, Options};
+use azulejo::{Classes, Context, Error, Given, Order, Points};
 
 use crate::common::meshes::{self, Soup};
 use crate::common::random::Random;
@@ -86,23 +86,66 @@ impl<'a> Case<'a> {
                 assert!(distance(points[i], exact(position)) >= self.clearance(given, class(i)));
             }
         }
-        let tolerance = tolerance(self.mesh);
         for class_j in 0..self.classes.count() {
-            for triangle in (0..self.mesh.triangles().len() as u32).filter(|&triangle| self.allows(class_j, triangle)) {
-                let corners = self.mesh.corners(triangle).map(exact);
-                if !has_area(corners) {
-                    continue;
-                }
-                let normal = normal(self.mesh, triangle);
-                let ball = |i: usize| (points[i], self.classes.radius(class(i), class_j));
-                let seen = |&i: &usize| self.sees(samples.normals[i], normal);
-                let mut balls: Vec<_> = (0..points.len()).filter(seen).map(ball).collect();
-                let given = self.options.given.positions.iter().enumerate();
-                balls.extend(given.map(|(given, &position)| (exact(position), self.clearance(given, class_j))));
-                balls.retain(|ball| ball.1 > 0.0);
-                balls.iter_mut().for_each(|ball| ball.1 += tolerance);
-                let gap = gap_in_part(corners, &balls, tolerance / 100.0);
-                assert_eq!(gap, None, "class {class_j}, triangle {triangle}: {:?}", self.classes);
+            self.check_covered(samples, class_j, |i| self.classes.radius(class(i), class_j));
+        }
+    }
+
+    /// Every place where a class may stand is within the radius of a sample, or the clearance of a given one.
+    fn check_covered(&self, samples: &Points<3>, class: usize, radius: impl Fn(usize) -> f64) {
+        let tolerance = tolerance(self.mesh);
+        for triangle in (0..self.mesh.triangles().len() as u32).filter(|&triangle| self.allows(class, triangle)) {
+            let corners = self.mesh.corners(triangle).map(exact);
+            if !has_area(corners) {
+                continue;
+            }
+            let normal = normal(self.mesh, triangle);
+            let ball = |i: usize| (exact(samples.positions[i]), radius(i));
+            let seen = |&i: &usize| self.sees(samples.normals[i], normal);
+            let mut balls: Vec<_> = (0..samples.len()).filter(seen).map(ball).collect();
+            let given = self.options.given.positions.iter().enumerate();
+            balls.extend(given.map(|(given, &position)| (exact(position), self.clearance(given, class))));
+            balls.retain(|ball| ball.1 > 0.0);
+            balls.iter_mut().for_each(|ball| ball.1 += tolerance);
+            let gap = gap_in_part(corners, &balls, tolerance / 100.0);
+            assert_eq!(gap, None, "class {class}, triangle {triangle}: {:?}", self.classes);
+        }
+    }
+
+    /// The ranks of each class fall, and all samples of a group up to a rank keep the promises of that rank.
+    fn check_order(&self, samples: &Points<3>) {
+        let (class, rank) = (|i: usize| samples.classes[i] as usize, |i: usize| f64::from(samples.ranks[i]));
+        let (low, high) = self.mesh.bounds();
+        let diagonal = distance(exact(low), exact(high));
+        let is_grouped = |i: usize, j: usize| self.classes.own(class(i)) == self.classes.own(class(j));
+        for i in 0..samples.len() {
+            assert!(i == 0 || class(i - 1) != class(i) || rank(i - 1) >= rank(i), "ranks rise");
+            assert!(rank(i) >= f64::from(self.classes.own(class(i)) as f32).next_down(), "a rank below the radius");
+            for j in (0..i).filter(|&j| is_grouped(i, j) && self.sees(samples.normals[i], samples.normals[j])) {
+                let near = distance(exact(samples.positions[i]), exact(samples.positions[j]));
+                let multiple = rank(i).min(rank(j)).min(diagonal) / self.classes.own(class(i));
+                let radius = self.classes.radius(class(i), class(j)) * multiple;
+                assert!(near >= radius, "{near}, {radius}");
+                assert!(class(i) != class(j) || near >= rank(i).min(rank(j)));
+            }
+        }
+        for class_j in 0..self.classes.count() {
+            let own = self.classes.own(class_j);
+            let mut ranks: Vec<f64> =
+                (0..samples.len()).filter(|&i| self.classes.own(class(i)) == own).map(rank).collect();
+            ranks.sort_by(|a, b| b.total_cmp(a));
+            for count in [2, 5, 12, 40, 99, 100, 250].into_iter().filter(|&count| count <= ranks.len()) {
+                let last = ranks[count - 1];
+                let quotient = self.options.quotient;
+                let loose = if count < 100 { 2f64.max(quotient * quotient) } else { quotient };
+                self.check_covered(samples, class_j, |i| {
+                    let radius = self.classes.radius(class(i), class_j);
+                    match self.classes.own(class(i)) {
+                        larger if larger > own => radius,
+                        equal if equal == own && rank(i) >= last => radius * loose * last / own,
+                        _ => 0.0,
+                    }
+                });
             }
         }
     }
@@ -339,6 +382,53 @@ fn the_sides_of_a_wall_ignore_each_other_where_a_cosine_says_so() {
     let case = Case::new(&mesh, &classes);
     let thick = Case { options: case.options.cosine(0.0), ..case }.checked();
     assert!(2 * thick.len() > 3 * case.checked().len());
+}
+
+/// In progressive order a set is one of classes as any other, with the same shares, and each class is thinned by its
+/// ranks.
+#[test]
+fn every_class_is_thinned_by_its_ranks() {
+    let soups: [(Soup, f64); 4] = [
+        (meshes::plane(), 0.07),
+        (meshes::fine_torus(24, 12), 0.4),
+        (meshes::random_soup(5, 6), 0.15),
+        (meshes::sheets(0.02), 0.12),
+    ];
+    for (number, (soup, radius)) in soups.into_iter().enumerate() {
+        let mesh = mesh(soup);
+        let masks: Vec<u32> =
+            (0..mesh.triangles().len() as u32).map(|i| [u32::MAX, 0b10, u32::MAX][i as usize % 3]).collect();
+        let positions = [mesh.positions()[0], mesh.positions()[1]];
+        for (quotient, classes) in [DEFAULT_QUOTIENT, 1.4].into_iter().cycle().zip(matrices()) {
+            let classes = scaled(&classes, radius);
+            let options = ClassOptions::default().seed(5).order(Order::Progressive).quotient(quotient);
+            let options = if number == 1 { options.given(Given::at(&positions)) } else { options };
+            let masks = (number == 2).then_some(&masks[..]);
+            let case = Case { options, masks, ..Case::new(&mesh, &classes) };
+            let samples = case.checked();
+            assert_eq!(samples.ranks.len(), samples.len());
+            case.check_order(&samples);
+        }
+    }
+}
+
+/// Classes of larger radii have as many samples as without an order, in one piece and in cubes.
+#[test]
+fn an_order_changes_the_shares_of_classes_little() {
+    let mesh = mesh(meshes::torus());
+    for unit in [0.05, 0.014] {
+        let classes = scaled(&Classes::of_radii(&[4.0, 1.0, 2.0, 1.0], 1.0).unwrap(), unit);
+        let of = |order| Case { options: ClassOptions::default().order(order), ..Case::new(&mesh, &classes) };
+        let [any, ordered] = [Order::Any, Order::Progressive].map(|order| of(order).sample_on(2).unwrap());
+        assert_eq!(ordered, of(Order::Progressive).sample_on(1).unwrap());
+        let near = Near::new(&classes, &ordered);
+        near.check_distances();
+        assert_eq!(near.gap(&mesh), None);
+        for (any, ordered) in counts(&any, 4).into_iter().zip(counts(&ordered, 4)) {
+            // Nested maximal sets are sparser than others.
+            assert!((0.88..1.04).contains(&(ordered as f64 / any as f64)), "{any} {ordered}");
+        }
+    }
 }
 
 /// No class of a group has an advantage, wherever it is in the matrix, in one piece and in cubes.

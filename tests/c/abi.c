@@ -87,6 +87,13 @@ FIELD(azulejo_thin_options, seed, 24);
 FIELD(azulejo_thin_options, progress, 32);
 FIELD(azulejo_thin_options, progress_user, 40);
 
+SIZE(azulejo_classes_report, 152);
+FIELD(azulejo_classes_report, struct_size, 0);
+FIELD(azulejo_classes_report, classes, 4);
+FIELD(azulejo_classes_report, samples, 8);
+FIELD(azulejo_classes_report, counts, 16);
+FIELD(azulejo_classes_report, seconds, 144);
+
 SIZE(azulejo_thin_report, 32);
 FIELD(azulejo_thin_report, struct_size, 0);
 FIELD(azulejo_thin_report, reserved, 4);
@@ -380,7 +387,8 @@ static void signatures(void) {
     azulejo_status (*psp_sample)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                  azulejo_points **, azulejo_psp_report *) = azulejo_psp_sample;
     azulejo_status (*psp_sample_classes)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
-                                         const azulejo_classes *, azulejo_points **) = azulejo_psp_sample_classes;
+                                         const azulejo_classes *, azulejo_points **, azulejo_classes_report *) =
+        azulejo_psp_sample_classes;
     azulejo_status (*psp_adaptive_sample)(const azulejo_context *, const azulejo_mesh *,
                                           const azulejo_psp_adaptive_options *, azulejo_points **, azulejo_psp_report *) =
         azulejo_psp_adaptive_sample;

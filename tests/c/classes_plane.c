@@ -41,7 +41,7 @@ static void refused(void) {
         o = around();                                                                  \
         c = three_classes();                                                           \
         (void)(change);                                                                \
-        REFUSED(status, part, azulejo_kdrt_sample_classes(context, &o, &c, &out));     \
+        REFUSED(status, part, azulejo_kdrt_sample_classes(context, &o, &c, &out, NULL));     \
         REFUSED(status, part, azulejo_kdrt_create_classes(context, &o, &c, &plane));   \
         CHECK(out == UNTOUCHED && plane == UNTOUCHED);                                 \
     } while (0)
@@ -62,10 +62,10 @@ static void refused(void) {
 #undef NO_SET
     o = around();
     c = three_classes();
-    REFUSED(INVALID, "context", azulejo_kdrt_sample_classes(NULL, &o, &c, &out));
-    REFUSED(INVALID, "options", azulejo_kdrt_sample_classes(context, NULL, &c, &out));
-    REFUSED(INVALID, "classes", azulejo_kdrt_sample_classes(context, &o, NULL, &out));
-    REFUSED(INVALID, "out", azulejo_kdrt_sample_classes(context, &o, &c, NULL));
+    REFUSED(INVALID, "context", azulejo_kdrt_sample_classes(NULL, &o, &c, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_kdrt_sample_classes(context, NULL, &c, &out, NULL));
+    REFUSED(INVALID, "classes", azulejo_kdrt_sample_classes(context, &o, NULL, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_kdrt_sample_classes(context, &o, &c, NULL, NULL));
     REFUSED(INVALID, "context", azulejo_kdrt_create_classes(NULL, &o, &c, &plane));
     REFUSED(INVALID, "options", azulejo_kdrt_create_classes(context, NULL, &c, &plane));
     REFUSED(INVALID, "classes", azulejo_kdrt_create_classes(context, &o, NULL, &plane));
@@ -84,7 +84,7 @@ static void relaxed(void) {
     ACCEPTED(azulejo_dcr_options_init(&relax, sizeof relax));
     ACCEPTED(azulejo_dcr_report_init(&before, sizeof before));
     ACCEPTED(azulejo_dcr_report_init(&after, sizeof after));
-    if (!ACCEPTED(azulejo_kdrt_sample_classes(context, &o, &c, &set))) return;
+    if (!ACCEPTED(azulejo_kdrt_sample_classes(context, &o, &c, &set, NULL))) return;
     const float *const xy = azulejo_points_positions(set);
     const uint32_t *const of = azulejo_points_classes(set);
     const size_t count = azulejo_points_count(set);

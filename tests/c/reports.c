@@ -77,6 +77,35 @@ static azulejo_status thin(void *report) {
     return status;
 }
 
+static azulejo_classes two_classes(void) {
+    static const double radii[4] = {0.2, 0.1, 0.1, 0.1};
+    azulejo_classes classes;
+    ACCEPTED(azulejo_classes_init(&classes, sizeof classes));
+    classes.count = 2;
+    classes.radii = radii;
+    return classes;
+}
+
+static azulejo_status classes_of_plane(void *report) {
+    const azulejo_kdrt_options o = kdrt_options(0);
+    const azulejo_classes two = two_classes();
+    azulejo_points *out = NULL;
+    const azulejo_status status = azulejo_kdrt_sample_classes(context, &o, &two, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
+static azulejo_status classes_of_mesh(void *report) {
+    const azulejo_psp_options o = psp_options(0);
+    const azulejo_classes two = two_classes();
+    azulejo_points *out = NULL;
+    const azulejo_status status = azulejo_psp_sample_classes(context, cube, &o, &two, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
 static azulejo_status merge(void *report) {
     const azulejo_kdrt_merge_options o = merge_options(0.1);
     azulejo_points *out = NULL;
@@ -184,6 +213,7 @@ static azulejo_status spectral(void *report) { return azulejo_spectrum_measure(s
 INIT(kdrt)
 INIT(kdrt_merge)
 INIT(thin)
+INIT(classes)
 INIT(psp)
 INIT(dcr)
 INIT(dcr_surface)
@@ -206,6 +236,7 @@ typedef struct {
     init_##type, "azulejo_" #type "_report", sizeof(azulejo_##type##_report), required,                                    \
         offsetof(azulejo_##type##_report, last)
 #define KDRT_TIMES offsetof(azulejo_kdrt_report, seconds), sizeof(azulejo_kdrt_report)
+#define CLASSES_TIMES offsetof(azulejo_classes_report, seconds), sizeof(azulejo_classes_report)
 #define PSP_TIMES offsetof(azulejo_psp_report, seconds), offsetof(azulejo_psp_report, rho)
 static const entry entries[] = {
     {kdrt, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
@@ -213,6 +244,8 @@ static const entry entries[] = {
     {stream, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
     {maximal, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
     {thin, REPORT(thin, 16, seconds), offsetof(azulejo_thin_report, seconds), sizeof(azulejo_thin_report), 1},
+    {classes_of_plane, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
+    {classes_of_mesh, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {merge, REPORT(kdrt_merge, 16, inserted), 0, 0, 1},
     {psp, REPORT(psp, 16, covering_radius), PSP_TIMES, 1},
     {adaptive, REPORT(psp, 16, covering_radius), PSP_TIMES, 1},

@@ -151,7 +151,7 @@ static void planes_of_parts(void) {
     classes.radii = matrix;
     o.boundary = AZULEJO_BOUNDARY_BOUNDED;
     o.seed = 26;
-    POINTS("classes equal", azulejo_kdrt_sample_classes(context, &o, &classes, &points));
+    POINTS("classes equal", azulejo_kdrt_sample_classes(context, &o, &classes, &points, NULL));
 
     for (i = 0; i < 2000; i++) {
         positions[i][0] = (float)(i * 619 % 2003) / 1900.0f;
@@ -307,7 +307,7 @@ static void surfaces(void) {
     classes.mask_count = COUNT_OF(masks);
     o = psp_options(0);
     o.seed = 46;
-    POINTS("classes", azulejo_psp_sample_classes(context, mesh, &o, &classes, &points));
+    POINTS("classes", azulejo_psp_sample_classes(context, mesh, &o, &classes, &points, NULL));
 
     ACCEPTED(azulejo_psp_adaptive_options_init(&adaptive, sizeof adaptive));
     for (i = 0; i < COLUMNS * ROWS; i++) {

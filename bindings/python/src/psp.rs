@@ -128,17 +128,21 @@ pub(crate) fn priority(name: &str) -> PyResult<Priority> {
 /// masks: uint32, shape (t,): of each triangle the classes that it takes, bit i for class i; default: all.
 /// given_clearances: float64, shape (m, k). The others are those of psp_sample.
 ///
+/// order: in progressive order each class is sorted coarse to fine, and the points have ranks.
+///
 /// Returns Points with classes and the report PspReport.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, radii, *, masks=None, seed=0, given_positions=None, given_clearances=None, cosine=-1.0, threads=0,
-    progress=None
+    mesh, radii, *, masks=None, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None,
+    cosine=-1.0, threads=0, progress=None
 ))]
 pub(crate) fn psp_sample_classes(
     py: Python<'_>,
     mesh: &Mesh,
     radii: &Bound<'_, PyAny>,
     masks: Option<&Bound<'_, PyAny>>,
+    order: &str,
+    quotient: Option<f64>,
     seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
@@ -150,7 +154,12 @@ pub(crate) fn psp_sample_classes(
     let masks = optional("masks", masks)?;
     let masks = masks.as_ref().map(Array::line).transpose()?;
     let given = GivenArrays::read(given_positions, given_clearances)?;
-    let request = psp::ClassOptions::default().seed(natural("seed", seed)?).given(given.samples()?).cosine(cosine);
+    let request = psp::ClassOptions::default()
+        .order(self::order(order, &[("quotient", quotient)])?)
+        .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
+        .seed(natural("seed", seed)?)
+        .given(given.samples()?)
+        .cosine(cosine);
     let (samples, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))

@@ -45,7 +45,7 @@ const OF_ONE_RADIUS: [&str; 2] = ["radius_from", "density_from"];
 const OF_ONE_CLASS: [&str; 3] = ["radius", "count", "radius_from"];
 
 /// The arguments that sets of several classes refuse.
-const NOT_OF_CLASSES: [&str; 6] = ["density_from", "iterations", "no_fill", "order", "priority", "engine"];
+const NOT_OF_CLASSES: [&str; 5] = ["density_from", "iterations", "no_fill", "priority", "engine"];
 
 #[derive(Args)]
 pub struct Surface {
@@ -290,7 +290,12 @@ impl Surface {
         let classes = Classes::of_radii(own, self.class_factor)?;
         let masks = self.class_masks(file, own.len())?;
         let around = around.of_classes(own.len());
-        let options = psp::ClassOptions::default().seed(self.common.seed).given(around.given()).cosine(self.cosine);
+        let options = psp::ClassOptions::default()
+            .order(self.order.into())
+            .quotient(self.quotient.unwrap_or(psp::DEFAULT_QUOTIENT))
+            .seed(self.common.seed)
+            .given(around.given())
+            .cosine(self.cosine);
         let mesh = Arc::new(mesh);
         let sample = |progress: &Progress| {
             psp::sample_classes(context, &mesh, &options, &classes, masks.as_deref(), Some(progress))

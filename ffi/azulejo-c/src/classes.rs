@@ -1,11 +1,12 @@
 //! Classes of samples, and how far apart they are.
 
 use std::ptr;
+use std::time::Instant;
 
 use azulejo_core::Classes;
 
 use crate::boundary::{self, check_pointer, check_unused, rows};
-use crate::growing::{self, growing};
+use crate::growing::{self, Growing, growing};
 use crate::status::{Failure, azulejo_status};
 
 /// No set has more classes.
@@ -92,6 +93,55 @@ impl azulejo_classes {
     }
 }
 
+/// The report of azulejo_kdrt_sample_classes and azulejo_psp_sample_classes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_classes_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// The number of classes.
+    pub classes: u32,
+    /// The number of samples.
+    pub samples: u64,
+    /// The number of samples of each class, 0 for those that there are not.
+    pub counts: [u64; AZULEJO_MAX_CLASSES as usize],
+    /// Wall time in seconds.
+    pub seconds: f64,
+}
+
+growing!(azulejo_classes_report requires samples {
+    classes: 0,
+    samples: 0,
+    counts: [0; AZULEJO_MAX_CLASSES as usize],
+    seconds: 0.0,
+});
+
+/// Writes zeros and the size. `struct_size` is sizeof *report.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_classes_report_init(
+    report: *mut azulejo_classes_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
+impl azulejo_classes_report {
+    /// The report of a set, by the class of each sample.
+    pub(crate) fn of(classes: usize, of_samples: &[u32], start: Instant) -> Self {
+        let mut report = Self {
+            classes: classes as u32,
+            samples: of_samples.len() as u64,
+            seconds: start.elapsed().as_secs_f64(),
+            ..Self::DEFAULT
+        };
+        of_samples.iter().for_each(|&class| report.counts[class as usize] += 1);
+        report
+    }
+}
+
 fn checked_count(count: u32) -> Result<usize, Failure> {
     if (1..=AZULEJO_MAX_CLASSES).contains(&count) {
         return Ok(count as usize);
@@ -111,24 +161,24 @@ fn checked_count(count: u32) -> Result<usize, Failure> {
 /// Wei's. Smaller factors leave each class nearer to the density that it has alone, and let samples
 /// of two classes come nearer to each other.
 ///
-/// matrix_out: count * count numbers, row by row.
+/// out: count * count numbers, row by row.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then matrix_out is not written.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then out is not written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_classes_radii(
     own: *const f64,
     count: u32,
     factor: f64,
-    matrix_out: *mut f64,
+    out: *mut f64,
 ) -> azulejo_status {
     boundary::call(|| {
         let count = checked_count(count)?;
         // SAFETY: handed on from the caller.
         let own = unsafe { rows::<f64, 1>("own", own, "count", count) }?;
-        check_pointer("matrix_out", matrix_out)?;
+        check_pointer("out", out)?;
         let classes = Classes::of_radii(own.as_flattened(), factor)?;
         // SAFETY: the caller's array has count * count entries.
-        unsafe { matrix_out.copy_from_nonoverlapping(classes.radii().as_ptr(), count * count) };
+        unsafe { out.copy_from_nonoverlapping(classes.radii().as_ptr(), count * count) };
         Ok(())
     })
 }

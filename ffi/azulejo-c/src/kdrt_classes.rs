@@ -1,11 +1,13 @@
 //! Several classes in the plane.
 
+use std::time::Instant;
+
 use azulejo_core::kdrt::{Plane, sample};
 
 use crate::boundary::Out;
-use crate::classes::azulejo_classes;
+use crate::classes::{azulejo_classes, azulejo_classes_report};
 use crate::context::azulejo_context;
-use crate::growing;
+use crate::growing::{self, Output};
 use crate::handles;
 use crate::kdrt::azulejo_kdrt_options;
 use crate::kept::azulejo_kdrt;
@@ -35,6 +37,8 @@ use crate::status::azulejo_status;
 /// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
 /// y and x; to be freed with azulejo_points_free.
 ///
+/// report: how many samples each class has, or NULL.
+///
 /// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
 /// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
 /// radii, these classes are filled by one thread, with 512 bytes per sample.
@@ -48,6 +52,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     options: *const azulejo_kdrt_options,
     classes: *const azulejo_classes,
     out: *mut *mut azulejo_points,
+    report: *mut azulejo_classes_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let out = unsafe { Out::new(out) };
@@ -55,11 +60,15 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
         // SAFETY: handed on from the caller.
         let context = unsafe { handles::get("context", context) }?;
         // SAFETY: handed on from the caller.
-        let options = unsafe { growing::read("options", options) }?;
+        let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: the same.
         let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
         let request = options.with_classes(&classes)?;
+        let start = Instant::now();
         let set = context.run(options.watch(), |context, progress| sample(context, &request, progress))?;
+        if let Some(report) = report {
+            report.write(azulejo_classes_report::of(classes.count(), &set.classes, start));
+        }
         Ok(azulejo_points::plane(set))
     })
 }

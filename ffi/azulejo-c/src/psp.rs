@@ -193,18 +193,15 @@ impl azulejo_psp_options {
     unsafe fn request<'a>(&self) -> Result<FlatOptions<'a>, Failure> {
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
-        let order = order(self.order)?;
+        let (order, quotient) = self.ordered()?;
         if order == Order::Any && self.count == 0 && self.iterations == 0 && self.maximal == 0 {
             // A struct of zeros, filled without _init, would be an empty set and a success.
             return Err(Failure::invalid("iterations", "0 with maximal 0 makes no samples; _init writes the defaults"));
         }
-        if order == Order::Any {
-            check_unused("quotient", self.quotient, 0.0, "in any order")?;
-        }
         Ok(FlatOptions::new(self.radius)
             .count(self.count)
             .order(order)
-            .quotient(if self.quotient == 0.0 { DEFAULT_QUOTIENT } else { self.quotient })
+            .quotient(quotient)
             .iterations(Some(self.iterations).filter(|&count| count != AZULEJO_ITERATIONS_DEFAULT))
             .maximal(flag("maximal", self.maximal)?)
             .seed(self.seed)
@@ -212,6 +209,15 @@ impl azulejo_psp_options {
             .engine(engine(self.engine)?)
             .given(given)
             .cosine(self.cosine))
+    }
+
+    /// The order, and its quotient, which must not be set in any order.
+    fn ordered(&self) -> Result<(Order, f64), Failure> {
+        let order = order(self.order)?;
+        if order == Order::Any {
+            check_unused("quotient", self.quotient, 0.0, "in any order")?;
+        }
+        Ok((order, if self.quotient == 0.0 { DEFAULT_QUOTIENT } else { self.quotient }))
     }
 
     /// The request of a handle, whose calls determine the iterations and the filling.
@@ -241,17 +247,17 @@ impl azulejo_psp_options {
     /// As [`given`] for the given samples.
     pub(crate) unsafe fn request_of_region<'a>(&self) -> Result<RegionOptions<'a>, Failure> {
         self.check_filled_only("in a region")?;
+        check_unused("order", self.order, Self::DEFAULT.order, "in a region")?;
+        check_unused("quotient", self.quotient, Self::DEFAULT.quotient, "in a region")?;
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         Ok(RegionOptions::new(self.radius).seed(self.seed).given(given).cosine(self.cosine))
     }
 
-    /// Refuses what has no effect in calls that fill, by radius and in any order.
+    /// Refuses what has no effect in calls that fill by radius.
     fn check_filled_only(&self, call: &str) -> Result<(), Failure> {
         let default = Self::DEFAULT;
         check_unused("count", self.count, default.count, call)?;
-        check_unused("order", self.order, default.order, call)?;
-        check_unused("quotient", self.quotient, default.quotient, call)?;
         if self.iterations != 0 {
             check_unused("iterations", self.iterations, default.iterations, call)?;
         }
@@ -264,7 +270,8 @@ impl azulejo_psp_options {
     pub(crate) fn request_of_classes<'a>(&self, given: Given<'a, 3>) -> Result<ClassOptions<'a>, Failure> {
         check_unused("radius", self.radius, 0.0, "beside those of the classes")?;
         self.check_filled_only("with classes")?;
-        Ok(ClassOptions::default().seed(self.seed).given(given).cosine(self.cosine))
+        let (order, quotient) = self.ordered()?;
+        Ok(ClassOptions::default().seed(self.seed).given(given).cosine(self.cosine).order(order).quotient(quotient))
     }
 
     pub(crate) fn watch(&self) -> Watch {

@@ -1,13 +1,15 @@
 //! Several classes on a mesh.
 
+use std::time::Instant;
+
 use azulejo_core::psp::sample_classes;
 use azulejo_core::{Context, Progress};
 
 use crate::boundary::Out;
-use crate::classes::azulejo_classes;
+use crate::classes::{azulejo_classes, azulejo_classes_report};
 use crate::context::azulejo_context;
 use crate::given::given_by_class;
-use crate::growing;
+use crate::growing::{self, Output};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
@@ -25,14 +27,25 @@ use crate::status::azulejo_status;
 /// radii have equal shares: two about 77 per cent each, eight 83, and two with factor 0.7 have 95.
 /// Of 1.1 and 1 the first has 100 and the second 68: shares jump where radii become equal.
 ///
-/// options: `radius` must be 0, as the classes have radii. `count`, `order`, `iterations`,
-/// `maximal`, `priority` and `engine` must have their defaults. `given_clearances` has a row for
-/// each given sample with a clearance for each class; NULL stands for each class's own radius.
+/// In progressive order the samples of each class are sorted coarse to fine, and
+/// azulejo_points_ranks has their ranks. The first samples of a class, any number of them, are at
+/// least as far apart as the last of their ranks. Of the classes of equal own radii R, the samples
+/// up to a rank t are at least r_ij * t / R apart (of infinite ranks, r_ij * d / R for the diagonal
+/// d of the mesh's box), and where these classes may stand every place is within `quotient` * r_ij
+/// * t / R of one of them, or within r_ij of a sample of a class of larger radius; of less than 100
+/// of them, within 2 or `quotient`^2 times that instead. So a host can show the first part of each
+/// class, near parts of a scene more than far ones. The order takes several times the time.
+///
+/// options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
+/// `priority` and `engine` must have their defaults. `given_clearances` has a row for each given
+/// sample with a clearance for each class; NULL stands for each class's own radius.
 ///
 /// classes: the radii, and where each class may stand.
 ///
 /// out: the samples with normals, triangles, barycentrics and azulejo_points_classes, by which they
 /// are sorted; to be freed with azulejo_points_free.
+///
+/// report: how many samples each class has, or NULL.
 ///
 /// With two classes each sample takes about twice the time of one of azulejo_psp_sample, with eight
 /// about four times; all triangles are visited once for each class.
@@ -47,6 +60,7 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
     options: *const azulejo_psp_options,
     classes: *const azulejo_classes,
     out: *mut *mut azulejo_points,
+    report: *mut azulejo_classes_report,
 ) -> azulejo_status {
     // SAFETY: handed on from the caller.
     let out = unsafe { Out::new(out) };
@@ -57,6 +71,9 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
         let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, classes) = unsafe { (growing::read("options", options)?, growing::read("classes", classes)?) };
+        // SAFETY: handed on from the caller.
+        let report = unsafe { Output::optional("report", report) }?;
+        let start = Instant::now();
         // SAFETY: handed on from the caller.
         let (radii, masks) = unsafe { (classes.request()?, classes.masks()?) };
         let &azulejo_psp_options { given_positions, given_clearances, given_count, .. } = &options;
@@ -69,6 +86,9 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
             sample_classes(context, &mesh, &request, &radii, masks, progress)
         };
         let (samples, _) = context.run(options.watch(), sample)?;
+        if let Some(report) = report {
+            report.write(azulejo_classes_report::of(radii.count(), &samples.classes, start));
+        }
         Ok(azulejo_points::surface(samples))
     })
 }

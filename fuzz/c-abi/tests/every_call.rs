@@ -190,7 +190,7 @@ fn planes() {
         assert_eq!(azulejo_classes_radii([0.45f64, 0.3].as_ptr(), 2, 1.0, matrix.as_mut_ptr()), AZULEJO_OK);
         (classes.count, classes.radii) = (2, matrix.as_ptr());
         let alone = azulejo_kdrt_options { radius: 0.0, ..options };
-        let set = made(|out| azulejo_kdrt_sample_classes(context.get(), &alone, &classes, out));
+        let set = made(|out| azulejo_kdrt_sample_classes(context.get(), &alone, &classes, out, std::ptr::null_mut()));
         assert_eq!(set.read(azulejo_points_classes).read(), 0);
         read_and_free(set);
         let plane = made(|out| azulejo_kdrt_create_classes(context.get(), &alone, &classes, out));
@@ -296,7 +296,9 @@ fn surfaces() {
             assert_eq!(azulejo_classes_radii([0.9, 0.7].as_ptr(), 2, 1.0, radii.as_mut_ptr()), AZULEJO_OK);
             (classes.count, classes.radii, classes.masks, classes.mask_count) = (2, radii.as_ptr(), masks.as_ptr(), 2);
             let options = defaults(azulejo_psp_options_init);
-            let sample = |out: Out<_>| azulejo_psp_sample_classes(context.get(), normal.get(), &options, &classes, out);
+            let sample = |out: Out<_>| {
+                azulejo_psp_sample_classes(context.get(), normal.get(), &options, &classes, out, std::ptr::null_mut())
+            };
             read_and_free(made(sample));
         }
         let set = made(|out| azulejo_psp_create(context.get(), masked.get(), &options, out));

@@ -359,8 +359,8 @@ mod tests {
         assert!(refused(&Domain { max: [0.0, 1.0], ..unit }, &point, 8).starts_with("domain_max: [0] is 0"));
         assert!(refused(&unit, &point, 1).starts_with("size: 1 is not in 2..=4096"));
         assert!(refused(&unit, &point, 5000).starts_with("size: 5000"));
-        assert!(refused(&unit, &[[0.5, f32::NAN]], 8).starts_with("xy: point 0 is [0.5, NaN]"));
-        assert!(refused(&unit, &[[1.5, 0.5]], 8).starts_with("xy: no point"));
+        assert!(refused(&unit, &[[0.5, f32::NAN]], 8).starts_with("positions: point 0 is [0.5, NaN]"));
+        assert!(refused(&unit, &[[1.5, 0.5]], 8).starts_with("positions: no point"));
         let small = periodogram(&context, &unit, &point, 8, None).unwrap();
         let large = periodogram(&context, &unit, &point, 9, None).unwrap();
         assert!(small.radial(0.0).is_err() && small.radial(f64::NAN).is_err());

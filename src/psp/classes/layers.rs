@@ -28,19 +28,21 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// The layers that a group needs. Classes that come later have no samples yet.
-    pub fn new(classes: &Classes, group: &[usize]) -> Self {
-        let own = classes.own(group[0]);
-        let is_there = |&i: &usize| classes.own(i) >= own;
+    /// The layers that a group needs if its own radius and those between its classes are multiplied by `scale`. Classes
+    /// that come later have no samples yet.
+    pub fn new(classes: &Classes, group: &[usize], scale: f64) -> Self {
+        let is_there = |&i: &usize| classes.own(i) >= classes.own(group[0]);
+        let own = classes.own(group[0]) * scale;
+        let radius = |i: usize, j: usize| classes.radius(i, j) * if group.contains(&i) { scale } else { 1.0 };
         let among = |j: usize, holds: &dyn Fn(f64) -> bool| {
-            (0..classes.count()).filter(is_there).filter(|&i| holds(classes.radius(i, j))).fold(0, |of, i| of | 1 << i)
+            (0..classes.count()).filter(is_there).filter(|&i| holds(radius(i, j))).fold(0, |of, i| of | 1 << i)
         };
         let own_layer = |&j: &usize| Layer { radius: own, of: among(j, &|radius| radius == own), users: 1 << j };
         let mut all: Vec<Layer> = group.iter().map(own_layer).collect();
         let mut of_class = vec![Vec::new(); classes.count()];
         (0..).zip(group).for_each(|(layer, &j)| of_class[j].push(layer));
         for &j in group {
-            let mut radii: Vec<f64> = (0..classes.count()).filter(is_there).map(|i| classes.radius(i, j)).collect();
+            let mut radii: Vec<f64> = (0..classes.count()).filter(is_there).map(|i| radius(i, j)).collect();
             radii.retain(|&radius| radius > 0.0 && radius != own);
             radii.sort_by(|a, b| b.total_cmp(a));
             radii.dedup();
@@ -97,7 +99,7 @@ mod tests {
             }
             let classes = Classes::new(count, &radii).unwrap();
             for group in classes.groups() {
-                let layers = Layers::new(&classes, &group);
+                let layers = Layers::new(&classes, &group, 1.0);
                 shared += layers.all.iter().filter(|layer| layer.users.count_ones() > 1).count();
                 for &j in &group {
                     let first = &layers.all[layers.of_class[j][0]];
@@ -118,15 +120,15 @@ mod tests {
     fn with_cross_radii_of_wei_a_group_shares_one_layer() {
         for factor in [1.0, 0.7] {
             let classes = Classes::of_radii(&[1.0, 0.5, 0.5, 0.5], factor).unwrap();
-            let layers = Layers::new(&classes, &[1, 2, 3]);
+            let layers = Layers::new(&classes, &[1, 2, 3], 1.0);
             assert_eq!(layers.all.len(), 4);
             assert_eq!(layers.all[3].of, 0b1111);
             assert_eq!(layers.of_class, [vec![], vec![0, 3], vec![1, 3], vec![2, 3]]);
-            let layers = Layers::new(&Classes::of_radii(&[1.0, 0.5], factor).unwrap(), &[1]);
+            let layers = Layers::new(&Classes::of_radii(&[1.0, 0.5], factor).unwrap(), &[1], 1.0);
             assert_eq!(layers.all[1].of, 0b01, "own samples are covered by the own layer");
         }
-        let pair = Layers::new(&Classes::of_radii(&[1.0; 2], 1.0).unwrap(), &[0, 1]);
+        let pair = Layers::new(&Classes::of_radii(&[1.0; 2], 1.0).unwrap(), &[0, 1], 1.0);
         assert_eq!(pair.all.iter().map(|layer| layer.of).collect::<Vec<_>>(), [0b01, 0b10, 0b10, 0b01]);
-        assert_eq!(Layers::new(&Classes::of_radii(&[1.0; 3], 0.0).unwrap(), &[0, 1, 2]).all.len(), 3);
+        assert_eq!(Layers::new(&Classes::of_radii(&[1.0; 3], 0.0).unwrap(), &[0, 1, 2], 1.0).all.len(), 3);
     }
 }

@@ -14,17 +14,20 @@ use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::host::Stopwatch;
-use crate::job::{Context, Progress};
+use crate::job::{Context, Job, Progress};
 use crate::mesh::Mesh;
+use crate::order::Order;
 use crate::points::{Points, check_resolution};
 use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Group, Places};
+use crate::psp::fill::FillOptions;
 use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
-use crate::psp::options::ClassOptions;
+use crate::psp::levels::{Levelled, Levels, by_radius, top};
+use crate::psp::options::{ClassOptions, check_quotient};
 use crate::psp::report::Report;
-use crate::psp::samples::surface_samples;
+use crate::psp::samples::{Sample, surface_samples};
 use crate::rng::{Draw, hash};
 
 /// Samples a mesh with several classes at once.
@@ -44,8 +47,18 @@ use crate::rng::{Draw, hash};
 /// needs no cover, on triangles where its bit is 0. Other bits are ignored. Where the mesh has a
 /// [mask](Mesh::with_mask) of its own, both must allow a sample. `None`: all classes may stand everywhere.
 ///
-/// A set of classes has no order, and is always maximal. In the [`Report`] the radius is the smallest own radius, and
-/// `rho`, which is for one class, is 0.
+/// In [`Order::Progressive`](crate::Order::Progressive) the samples of each class are sorted coarse to fine, and have
+/// [ranks](Points::ranks). The first samples of a class, any number of them, are at least as far apart as the last of
+/// their ranks. Those of classes of equal radii up to one rank are at least `radius(i, j)` times that rank over the own
+/// radius apart, where the diagonal of the mesh's box stands for an infinite rank. And where these classes may stand,
+/// every place is within `radius(i, j)` times [`ClassOptions::quotient`] times that rank over the own radius of one of
+/// them, or within `radius(i, j)` of a sample of a class of larger radius: such classes keep their clearance from the
+/// first sample on. For less than [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples of them the quotient is
+/// larger, as in [`sample`](super::sample). So each class can be thinned independently, and classes have about the
+/// shares that they have in any order.
+///
+/// The set is always maximal. In the [`Report`] the radius is the smallest own radius, and `rho`, which is for one
+/// class, is 0.
 ///
 /// Time: with Wei's radii and two classes about twice that of [`sample`](super::sample) per sample, with eight classes
 /// four times; all triangles are visited once per class.
@@ -66,33 +79,41 @@ pub fn sample_classes(
     let stopwatch = Stopwatch::start();
     check_masks(mesh, masks)?;
     check_radii(mesh, classes)?;
+    if options.order == Order::Progressive {
+        check_quotient(options.quotient)?;
+    }
     let facing = Facing::new(options.cosine)?;
     let given = obstacles_of_classes(mesh, options.given, classes)?;
     let measures = &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
     let none = &Obstacles::default();
     let places = Places { mesh, measures, masks, given: &given, none, facing };
-    let group = |(number, group): (u64, &Vec<usize>)| Group {
-        places,
-        members: group.iter().map(|&class| class as u8).collect(),
-        radius: classes.own(group[0]),
-        layers: Layers::new(classes, group),
-        seed: hash(options.seed, Draw::Group, &[number]),
-    };
-    let groups: Vec<Group> = (0..).zip(&classes.groups()).map(group).collect();
-    let expected: f64 = groups.iter().map(Group::expected_samples).sum();
+    let groups = classes.groups();
+    let groups: Vec<_> = groups.iter().map(|members| GroupLevels { places, classes, members, earlier: &[] }).collect();
+    let expected: f64 = groups.iter().map(|group| group.expected(group.own())).sum();
     require_samples(expected, BYTES_PER_SAMPLE, "radii", "they ask for")?;
     let (mut samples, darts) = context.run(progress, |job| {
         let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
-        for group in &groups {
-            let next = (done + group.expected_samples() / expected.max(1.0)).min(1.0);
+        for (number, group) in (0..).zip(groups) {
+            let next = (done + group.expected(group.own()) / expected.max(1.0)).min(1.0);
+            let (job, seed) = (&job.part(done, next), hash(options.seed, Draw::Group, &[number]));
             let thrown;
-            (samples, thrown) = group.fill(&job.part(done, next), samples)?;
+            (samples, thrown) = match options.order {
+                Order::Any => {
+                    let fill = FillOptions { measures: false, ..FillOptions::from_nothing(seed) };
+                    group.at(group.own(), None).fill(job, samples, fill)?
+                }
+                Order::Progressive => {
+                    let (own, levels) = (group.own(), Levels::new(GroupLevels { earlier: &samples, ..group }, seed));
+                    let set = by_radius(job, levels, options.quotient, own)?;
+                    ([samples, set.samples].concat(), set.darts)
+                }
+            };
             darts += thrown;
             done = next;
         }
         Ok((samples, darts))
     })?;
-    // Stable: within a class they keep the order of the fill.
+    // Stable: within a class they keep the order of the fill, or that by rank.
     samples.sort_by_key(|sample| sample.class);
     let report = Report {
         uncovered_after: Some(0.0),
@@ -101,7 +122,61 @@ pub fn sample_classes(
     };
     let mut set = surface_samples(mesh, samples.iter());
     set.classes = samples.iter().map(|sample| sample.class.into()).collect();
+    if options.order == Order::Progressive {
+        set.ranks = samples.iter().map(|sample| sample.rank).collect();
+    }
     Ok((set, report))
+}
+
+/// The levels of a group: its own radius, and the radii between its classes, are multiplied by one number. Those to
+/// earlier classes stay.
+struct GroupLevels<'a> {
+    places: Places<'a>,
+    classes: &'a Classes,
+    members: &'a [usize],
+    /// The samples of earlier classes.
+    earlier: &'a [Sample],
+}
+
+impl GroupLevels<'_> {
+    /// The own radius.
+    fn own(&self) -> f64 {
+        self.classes.own(self.members[0])
+    }
+
+    /// The group at another own radius.
+    fn at(&self, radius: f64, largest_rank: Option<f64>) -> Group<'_> {
+        Group {
+            places: self.places,
+            members: self.members.iter().map(|&class| class as u8).collect(),
+            radius,
+            layers: Layers::new(self.classes, self.members, radius / self.own()),
+            largest_rank,
+        }
+    }
+}
+
+impl Levelled for GroupLevels<'_> {
+    type Sample = Sample;
+
+    fn top(&self) -> f64 {
+        top(self.places.mesh)
+    }
+
+    fn expected(&self, radius: f64) -> f64 {
+        self.at(radius, None).expected_samples()
+    }
+
+    fn has_given(&self) -> bool {
+        !self.earlier.is_empty()
+    }
+
+    fn fill(&self, job: &Job, options: FillOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
+        let group = self.at(radius, options.largest_rank);
+        let (mut samples, darts) = group.fill(job, [self.earlier, samples].concat(), options)?;
+        samples.retain(|sample| group.members.contains(&sample.class));
+        Ok((samples, darts))
+    }
 }
 
 /// For each class, the given samples with their clearances from it, of which each sample has a row; without clearances,

@@ -8,6 +8,7 @@
 
 use crate::error::Result;
 use crate::job::Job;
+use crate::math::rounded_down;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::classes::layers::Layers;
 use crate::psp::fill::blocks::Block;
@@ -54,7 +55,8 @@ pub struct Group<'a> {
     pub members: Vec<u8>,
     pub radius: f64,
     pub layers: Layers,
-    pub seed: u64,
+    /// The largest rank of the samples that are added, if they get ranks.
+    pub largest_rank: Option<f64>,
 }
 
 impl Group<'_> {
@@ -64,9 +66,9 @@ impl Group<'_> {
         self.members.len() as f64 * measures.expected_samples(mesh, self.radius)
     }
 
-    /// Adds samples of the group to those of earlier ones until none of its classes can take another one. Returns the
-    /// number of darts.
-    pub fn fill(&self, job: &Job, samples: Vec<Sample>) -> Result<(Vec<Sample>, u64)> {
+    /// Adds samples of the group to those that there are, behind them, until none of its classes can take another one.
+    /// Returns the number of darts.
+    pub fn fill(&self, job: &Job, samples: Vec<Sample>, options: FillOptions) -> Result<(Vec<Sample>, u64)> {
         let (mesh, in_blocks) = (self.places.mesh, self.expected_samples() > ONE_PIECE);
         let radius_of_cubes = self.radius.max(self.layers.largest() / LARGEST);
         let mut set = if in_blocks {
@@ -74,7 +76,6 @@ impl Group<'_> {
         } else {
             SampleSet::with(mesh, radius_of_cubes, samples)
         };
-        let options = FillOptions { measures: false, ..FillOptions::from_nothing(self.seed) };
         let darts = fill(job, self, &mut set, in_blocks, options)?.darts;
         Ok((set.into_samples(), darts))
     }
@@ -117,11 +118,11 @@ impl Site for Group<'_> {
     }
 
     fn reach(&self) -> f64 {
-        self.layers.largest()
+        self.layers.largest().max(self.largest_rank.unwrap_or(0.0))
     }
 
     fn ground(&self, block: Option<&Block>) -> ClassGround<'_> {
-        ClassGround::new(&self.places, block.map(|block| &block.extent), &self.layers)
+        ClassGround::new(self, block.map(|block| &block.extent))
     }
 
     fn add(ground: &mut ClassGround, sample: &Sample) {
@@ -141,6 +142,9 @@ impl Site for Group<'_> {
 pub struct ClassGround<'a> {
     places: &'a Places<'a>,
     layers: &'a Layers,
+    /// The own radius of the group, and a bit for each of its classes.
+    radius: f64,
+    members: u32,
     grounds: Vec<UniformGround<'a>>,
     /// The samples that the fill has added.
     accepted: Vec<Sample>,
@@ -150,17 +154,20 @@ pub struct ClassGround<'a> {
 
 impl<'a> ClassGround<'a> {
     /// A ground without samples but those given for each class.
-    fn new(places: &'a Places<'a>, extent: Option<&Extent>, layers: &'a Layers) -> Self {
+    fn new(group: &'a Group<'a>, extent: Option<&Extent>) -> Self {
+        let Group { places, layers, members, radius, largest_rank } = group;
         let &Places { mesh, facing, given, none, .. } = places;
         let obstacles = |layer: usize| {
             layers.of_class.iter().position(|layers| layers.first() == Some(&layer)).map_or(none, |class| &given[class])
         };
         let ground = |layer: usize| {
             let space = Space::new(mesh, layers.all[layer].radius * (1.0 + RADIUS_SLACK));
-            UniformGround::new(mesh, space, extent, facing, obstacles(layer))
+            let largest = largest_rank.map(|rank| rank * (layers.all[layer].radius / radius));
+            UniformGround::new(mesh, space, extent, facing, obstacles(layer)).ranked(largest)
         };
         let grounds = (0..layers.all.len()).map(ground).collect();
-        Self { places, layers, grounds, accepted: Vec::new(), darts: 0 }
+        let members = members.iter().fold(0, |bits, class| bits | 1 << class);
+        Self { places, layers, radius: *radius, members, grounds, accepted: Vec::new(), darts: 0 }
     }
 
     /// The surface with the samples that have the own radius of a class.
@@ -175,6 +182,15 @@ impl<'a> ClassGround<'a> {
                 ground.add(sample);
             }
         }
+    }
+
+    /// The rank of a sample that is added now: how large the own radius may be for it to conflict with no sample of the
+    /// group.
+    fn rank(&self, sample: &Sample) -> f32 {
+        let in_group = |layer: &&usize| self.layers.all[**layer].of & self.members != 0;
+        let rank = |&layer: &usize| self.grounds[layer].rank(sample) * (self.radius / self.layers.all[layer].radius);
+        let layers = &self.layers.of_class[usize::from(sample.class)];
+        rounded_down(layers.iter().filter(in_group).map(rank).fold(f64::INFINITY, f64::min))
     }
 
     /// True if a dart conflicts with a sample.
@@ -292,6 +308,7 @@ impl Ground for ClassGround<'_> {
     fn throw(&mut self, sample: Sample) {
         self.darts += 1;
         if !self.rejects(&sample) {
+            let sample = Sample { rank: self.rank(&sample), ..sample };
             self.add(&sample);
             self.accepted.push(sample);
         }

@@ -187,13 +187,13 @@ impl<'a> UniformGround<'a> {
         Self { largest_rank: largest.map(|rank| rank * f64::from(self.grid.space.scale())), ..self }
     }
 
-    /// The rank of a sample that is added now: its distance to the nearest one, but no more than the largest rank. It
-    /// does not exceed the distance in whatever order a caller evaluates that.
-    fn rank(&self, sample: &Sample) -> f32 {
-        let Some(largest) = self.largest_rank else { return f32::INFINITY };
+    /// The rank of a sample that is added now, before it is rounded down to a float: its distance to the nearest one,
+    /// but no more than the largest rank. It does not exceed the distance in whatever order a caller evaluates that.
+    pub fn rank(&self, sample: &Sample) -> f64 {
+        let Some(largest) = self.largest_rank else { return f64::INFINITY };
         let (place, normal) = (self.grid.space.place(sample.position), self.normal(sample.triangle));
         let distance = self.grid.distance(place, normal, largest) * (1.0 - 1e-14);
-        rounded_down(distance.max(self.grid.space.radius()) / f64::from(self.grid.space.scale()))
+        distance.max(self.grid.space.radius()) / f64::from(self.grid.space.scale())
     }
 
     /// The radius, in the unit of the mesh.
@@ -422,7 +422,7 @@ impl Ground for UniformGround<'_> {
     fn throw(&mut self, sample: Sample) {
         self.darts += 1;
         if !self.rejects(&sample) {
-            let rank = self.rank(&sample);
+            let rank = rounded_down(self.rank(&sample));
             self.add(&sample);
             self.accepted.push(Sample { rank, ..sample });
         }
