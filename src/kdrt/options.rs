@@ -40,6 +40,20 @@ pub enum Kind<'a> {
     /// A torus that is narrower than two fill blocks, about 10 times the largest distance between classes of equal own
     /// radii, is filled by one thread.
     Classes(&'a Classes),
+    /// Several classes, each of which is in progressive order: its samples are sorted coarse to fine, and have
+    /// [ranks](crate::Points::ranks).
+    ///
+    /// A set of [`Kind::Classes`] in which the classes of one own radius R are made level by level. A rank is the radius
+    /// of a level. The samples of a class up to a rank t are at least t apart, those of classes of equal own radii at
+    /// least `radius(i, j)` · t / R. Every point of the domain is within the quotient times `radius(i, j)` · t / R of one
+    /// of them, or within `radius(i, j)` of a sample of a class of larger own radius: these keep their distance from the
+    /// first level on. For less than [`Order::FIRST_COUNT`](crate::Order::FIRST_COUNT) samples of a class the quotient
+    /// is larger, as in [`Progressive`]. So each class can be thinned independently.
+    ///
+    /// The coarsest radius is that of the first level of each class, at least the largest own radius. The coarse levels
+    /// of a class depend on the classes of larger radii within some 30 of their radii: windows of large domains need a
+    /// coarsest radius of a few times the largest own one.
+    ProgressiveClasses(&'a Classes, Progressive),
 }
 
 /// The levels of a progressive order: nested maximal sets, coarse to fine.

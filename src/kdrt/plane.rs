@@ -169,7 +169,7 @@ impl Plane {
             Layers::Progressive(..) => {
                 Err(Error::invalid("order", "a stream comes place by place, in no progressive order"))
             }
-            Layers::Classes(_) => Err(Error::invalid("classes", "a stream comes place by place, not class by class")),
+            Layers::Classes(..) => Err(Error::invalid("classes", "a stream comes place by place, not class by class")),
         }
     }
 }
@@ -193,7 +193,8 @@ enum Radii {
         radius: f64,
         levels: Progressive,
     },
-    Classes(Classes),
+    /// Several classes, which may be in progressive order.
+    Classes(Classes, Option<Progressive>),
 }
 
 impl Set {
@@ -206,15 +207,16 @@ impl Set {
         let (lattice, radii) = match kind {
             Kind::Plain(radius) => (lattice_of(radius)?, Radii::One { radius, is_class: false }),
             Kind::Progressive(radius, levels) => (lattice_of(radius)?, Radii::Progressive { radius, levels }),
-            Kind::Classes(classes) => {
+            Kind::Classes(classes) | Kind::ProgressiveClasses(classes, _) => {
+                let levels = if let Kind::ProgressiveClasses(_, levels) = kind { Some(levels) } else { None };
                 given.check_classes(classes.count())?;
                 let smallest = (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min);
                 // Floats of any spacing can represent the longest radius.
                 let lattice = Lattice::of_any_size(&domain, f64::MAX)?;
                 check_resolution("radii", smallest, lattice.unit(), "the domain's largest coordinate")?;
-                match classes.count() {
-                    1 => (lattice_of(smallest)?, Radii::One { radius: smallest, is_class: true }),
-                    _ => (lattice, Radii::Classes(classes.clone())),
+                match (classes.count(), levels) {
+                    (1, None) => (lattice_of(smallest)?, Radii::One { radius: smallest, is_class: true }),
+                    _ => (lattice, Radii::Classes(classes.clone(), levels)),
                 }
             }
         };
@@ -229,7 +231,10 @@ impl Set {
                 given.check()?;
                 levels.check(*radius)?;
             }
-            Radii::Classes(_) => (),
+            Radii::Classes(classes, levels) => {
+                let largest = (0..classes.count()).map(|class| classes.own(class)).fold(0.0, f64::max);
+                levels.as_ref().map_or(Ok(()), |levels| levels.check(largest))?;
+            }
         }
         Ok(Self { domain, lattice, radii })
     }
@@ -243,7 +248,7 @@ impl Set {
                 estimate(extent, *radius)?;
                 require(self.lattice.expected_samples(), progressive::BYTES_PER_SAMPLE, "radius")
             }
-            Radii::Classes(classes) => require_classes(classes, extent),
+            Radii::Classes(classes, _) => require_classes(classes, extent),
         }
     }
 
@@ -254,7 +259,7 @@ impl Set {
             Radii::One { radius, .. } | Radii::Progressive { radius, .. } => {
                 require(estimate(window.extent(), *radius)?, BYTES_PER_SAMPLE, "radius")?;
             }
-            Radii::Classes(classes) => require_classes(classes, window.extent())?,
+            Radii::Classes(classes, _) => require_classes(classes, window.extent())?,
         }
         Ok(window)
     }
@@ -296,8 +301,8 @@ enum Layers {
     None(Base),
     /// The levels of a progressive order, and the rank of the samples of the coarsest one.
     Progressive(Stack<Level>, f64),
-    /// Groups of classes.
-    Classes(Stack<Group>),
+    /// Groups of classes, and in progressive order the rank of each layer.
+    Classes(Stack<Group>, Vec<f32>),
 }
 
 impl Layers {
@@ -312,7 +317,13 @@ impl Layers {
                 let (stack, rank) = progressive::stack(job, options, *radius, levels, around(*radius))?;
                 Ok(Self::Progressive(stack, rank))
             }
-            Radii::Classes(classes) => Ok(Self::Classes(classes::stack(job, &set.lattice, options, classes)?)),
+            Radii::Classes(classes, None) => {
+                Ok(Self::Classes(classes::stack(job, &set.lattice, options, classes)?, Vec::new()))
+            }
+            Radii::Classes(classes, Some(levels)) => {
+                let (stack, ranks) = classes::levels(&set.lattice, options, classes, levels);
+                Ok(Self::Classes(stack, ranks))
+            }
         }
     }
 
@@ -321,7 +332,7 @@ impl Layers {
         match self {
             Self::None(_) => Ok(()),
             Self::Progressive(stack, _) => stack.keep(job),
-            Self::Classes(stack) => stack.keep(job),
+            Self::Classes(stack, _) => stack.keep(job),
         }
     }
 
@@ -330,7 +341,7 @@ impl Layers {
         match self {
             Self::None(base) => Ok(set.in_any_order(base.whole(job)?)),
             Self::Progressive(stack, rank) => Ok(progressive::ordered(stack.lattice(), *rank, stack.whole(job)?)),
-            Self::Classes(stack) => Ok(classes::ordered(stack.lattice(), stack.whole(job)?)),
+            Self::Classes(stack, ranks) => Ok(classes::ordered(stack.lattice(), ranks, stack.whole(job)?)),
         }
     }
 
@@ -341,7 +352,7 @@ impl Layers {
             Self::Progressive(stack, rank) => {
                 Ok(progressive::ordered(stack.lattice(), *rank, stack.window(job, window)?))
             }
-            Self::Classes(stack) => Ok(classes::ordered(stack.lattice(), stack.window(job, window)?)),
+            Self::Classes(stack, ranks) => Ok(classes::ordered(stack.lattice(), ranks, stack.window(job, window)?)),
         }
     }
 }

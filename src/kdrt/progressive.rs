@@ -85,10 +85,7 @@ pub fn stack(
 ) -> Result<(Stack<Level>, f64)> {
     let &Options { domain, seed, .. } = options;
     let finest = Lattice::of_any_size(&domain, radius)?;
-    let longest = longest(&domain);
-    let from = if levels.coarsest.is_finite() { levels.coarsest } else { octaves_above(radius, longest) };
-    let ladder = Ladder::new(from, levels.quotient, domain.extent());
-    let radii = ladder.down_to(ladder.step_above(longest), radius);
+    let radii = radii(&domain, radius, levels);
     let Coarsest { lattice: mut before, rank, base } = Coarsest::new(job, options, radii[0], Arc::clone(&around))?;
     let most_kept = if matches!(base, Base::Whole(_)) { KEPT_SAMPLES } else { 0.0 };
     let mut levels: Vec<Level> = Vec::with_capacity(radii.len() - 1);
@@ -99,6 +96,14 @@ pub fn stack(
         before = lattice;
     }
     Ok((Stack::new(finest, Some((base, COARSEST)), levels), rank))
+}
+
+/// The radii of the levels of a domain, from the coarsest to that of the set.
+pub fn radii(domain: &Domain, radius: f64, levels: &Progressive) -> Vec<f64> {
+    let longest = longest(domain);
+    let from = if levels.coarsest.is_finite() { levels.coarsest } else { octaves_above(radius, longest) };
+    let ladder = Ladder::new(from, levels.quotient, domain.extent());
+    ladder.down_to(ladder.step_above(longest), radius)
 }
 
 /// Puts samples in order. Those of the coarsest level have the given rank.
@@ -168,7 +173,7 @@ fn level_seed(seed: u64, step: u64) -> u64 {
 }
 
 /// The diagonal of a domain: no two points are farther apart.
-fn longest(domain: &Domain) -> f64 {
+pub fn longest(domain: &Domain) -> f64 {
     let [width, height] = domain.extent();
     hypot(width, height)
 }

@@ -1,11 +1,12 @@
 //! Several classes in the plane, from the definition: no conflict of any two classes, no place for another sample, and
 //! the same in every part.
 
-use azulejo::kdrt::{Kind, Options, Plane, sample};
+use azulejo::kdrt::{DEFAULT_QUOTIENT, Kind, Options, Plane, Progressive, sample};
 use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Points};
 
 use crate::common::class_darts;
 use crate::common::class_oracle::{Set, fault};
+use crate::common::disks::{distance, find_gap};
 use crate::common::sets::Random;
 use crate::common::tiled;
 use crate::common::windows::{self, random_window};
@@ -167,6 +168,107 @@ fn windows_and_threads_make_the_same_set() {
                         "{window:?} {options:?} {classes:?}"
                     );
                 }
+            }
+        }
+    }
+}
+
+/// What is wrong with the ranks of a set in progressive order, if anything is: they fall in each class, and all samples
+/// of a group up to a rank keep the promises of that rank.
+fn fault_of_ranks(domain: &Domain, classes: &Classes, given: &Set, set: &Points<2>, quotient: f64) -> Option<String> {
+    let all: Vec<_> =
+        (0..set.len()).map(|i| (set.positions[i], set.classes[i] as usize, f64::from(set.ranks[i]))).collect();
+    let rises = |pair: &[(_, usize, f64)]| pair[0].1 > pair[1].1 || pair[0].1 == pair[1].1 && pair[0].2 < pair[1].2;
+    if all.windows(2).any(rises) {
+        return Some("ranks or classes are out of order".into());
+    }
+    for class in 0..classes.count() {
+        let own = classes.own(class);
+        let ranks: Vec<f64> = all.iter().filter(|(_, other, _)| *other == class).map(|(_, _, rank)| *rank).collect();
+        for count in [1, 2, 7, 30, 99, 100, 300].into_iter().filter(|&count| count <= ranks.len()) {
+            let last = ranks[count - 1];
+            let group: Vec<_> =
+                all.iter().filter(|(_, other, rank)| classes.own(*other) == own && *rank >= last).collect();
+            for (i, (a, of_a, _)) in group.iter().enumerate() {
+                let is_near = |(b, of_b, _): &&&([f32; 2], usize, f64)| {
+                    distance(domain, *a, *b) < classes.radius(*of_a, *of_b) * (last / own) * (1.0 - 1e-12)
+                };
+                if let Some(near) = group[..i].iter().find(is_near) {
+                    return Some(format!("{a:?} of {of_a} is too near to {near:?} at rank {last}"));
+                }
+            }
+            let loose = if count < 100 { 2f64.max(quotient * quotient) } else { quotient };
+            let in_group = group.iter().map(|(at, of, _)| (*at, classes.radius(class, *of) * (loose * last / own)));
+            let larger = all.iter().filter(|(_, other, _)| classes.own(*other) > own);
+            let larger = larger.map(|(at, other, _)| (*at, classes.radius(class, *other)));
+            let given = given.0.iter().enumerate().map(|(i, &at)| (at, given.1[i * classes.count() + class]));
+            let (tolerance, smallest) = (6.0 * float_spacing(domain), float_spacing(domain) / 16.0);
+            if let Some(gap) = find_gap(domain, in_group.chain(larger).chain(given), tolerance, smallest) {
+                return Some(format!("{gap:?} is not covered for {count} samples of {class} at rank {last}"));
+            }
+        }
+    }
+    None
+}
+
+/// In progressive order a set is one of classes as any other, and each class is thinned by its ranks.
+#[test]
+fn every_class_is_thinned_by_its_ranks() {
+    let mut random = Random::new(9);
+    for boundary in BOUNDARIES {
+        for (number, domain) in hard_domains(boundary).into_iter().enumerate() {
+            for count in [1, 2, 3, 6] {
+                let area = (domain.area() * 10f64.powf(between(&mut random, -2.7, -0.5))).sqrt();
+                let finest = area.max(64.0 * float_spacing(&domain));
+                let classes = random_classes(&mut random, count, finest, [1.0, 3.0][number % 2]);
+                let levels = Progressive::new().quotient([DEFAULT_QUOTIENT, 1.4][count % 2]);
+                let options = Options::of(Kind::ProgressiveClasses(&classes, levels)).domain(domain).seed(count as u64);
+                let given = if count == 3 { random_given(&mut random, &domain, &classes, 9) } else { Set::default() };
+                let set = whole(&options.given(Given::with_clearances(&given.0, &given.1)));
+                assert_eq!(fault(&domain, &classes, &given, &set), None, "{domain:?} {classes:?}");
+                let fault = fault_of_ranks(&domain, &classes, &given, &set, levels.quotient);
+                assert_eq!(fault, None, "{domain:?} {classes:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_oracle_of_ranks_notices_what_is_not_as_they_say() {
+    let domain = domain([0.0; 2], [1.0; 2], Boundary::Periodic);
+    let classes = Classes::of_radii(&[0.1, 0.05, 0.05], 1.0).unwrap();
+    let set = whole(&Options::of(Kind::ProgressiveClasses(&classes, Progressive::new())));
+    let is_wrong = |change: &dyn Fn(&mut Points<2>)| {
+        let mut changed = set.clone();
+        change(&mut changed);
+        fault_of_ranks(&domain, &classes, &Set::default(), &changed, DEFAULT_QUOTIENT).is_some()
+    };
+    assert!(!is_wrong(&|_| ()));
+    assert!(is_wrong(&|set| set.ranks.swap(0, 20)));
+    assert!(is_wrong(&|set| set.ranks.iter_mut().for_each(|rank| *rank *= 1.3)));
+    assert!(is_wrong(&|set| set.ranks.iter_mut().for_each(|rank| *rank /= 2.1)));
+    assert!(is_wrong(&|set| set.positions[3] = set.positions[4]));
+}
+
+#[test]
+fn windows_and_threads_make_the_same_ordered_set() {
+    let (mut random, threads) = (Random::new(6), Context::new(2).unwrap());
+    for boundary in BOUNDARIES {
+        let domain = domain([-0.21, 3.0], [0.79, 3.6], boundary);
+        for (count, coarsest) in [(1, 0.08), (2, f64::INFINITY), (3, 0.1), (4, 0.06)] {
+            let classes = random_classes(&mut random, count, 0.013, 3.0);
+            let levels = Progressive::new().quotient(1.3).coarsest(coarsest);
+            let options = Options::of(Kind::ProgressiveClasses(&classes, levels)).domain(domain);
+            let set = whole(&options);
+            assert!(sample(&threads, &options, None).unwrap() == set);
+            assert_eq!(fault(&domain, &classes, &Set::default(), &set), None);
+            let plane = Plane::new(&threads, &options, None).unwrap();
+            for window in (0..6).map(|_| random_window(&mut random, &domain)).chain([(domain.min, domain.max)]) {
+                let found = plane.window(window.0, window.1).unwrap();
+                let (positions, classes) = part_of(&set, window);
+                let ranks = set.positions.iter().zip(&set.ranks).filter(|(at, _)| positions.contains(at));
+                assert!(found.ranks == ranks.map(|(_, rank)| *rank).collect::<Vec<_>>());
+                assert!((found.positions, found.classes) == (positions, classes), "{window:?} {options:?}");
             }
         }
     }

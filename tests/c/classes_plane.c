@@ -48,7 +48,8 @@ static void refused(void) {
     NO_SET(INVALID, "radius: 0.1", o.radius = 0.1);
     NO_SET(INVALID, "count: 7", o.count = 7);
     NO_SET(INVALID, "measure_covering_radius", o.measure_covering_radius = 1);
-    NO_SET(INVALID, "order", o.order = AZULEJO_ORDER_PROGRESSIVE);
+    NO_SET(INVALID, "order", o.order = 2);
+    NO_SET(INVALID, "coarsest", (o.order = AZULEJO_ORDER_PROGRESSIVE, o.coarsest = 1e-9));
     NO_SET(INVALID, "quotient", o.quotient = 1.2);
     NO_SET(INVALID, "struct_size", o.struct_size = 8);
     NO_SET(INVALID, "given_positions", o.given_positions = NULL);

@@ -59,10 +59,7 @@ impl<'py> Request<'py> {
         if radius != 0.0 {
             return Err(invalid("radius", format!("{radius:?} is not 0; classes have radii of their own")));
         }
-        if self.levels.is_some() {
-            return Err(invalid("order", "sets of several classes have no progressive order"));
-        }
-        self.of(Kind::Classes(classes))
+        self.of(self.levels.map_or(Kind::Classes(classes), |levels| Kind::ProgressiveClasses(classes, levels)))
     }
 
     fn of<'a>(&'a self, kind: Kind<'a>) -> PyResult<kdrt::Options<'a>> {
@@ -176,13 +173,14 @@ pub(crate) fn kdrt_sample_window(
 /// i every place is within radii[i][j] of some sample of some class j.
 ///
 /// radii: symmetric, float64, shape (k, k) with k from 1 to 16; classes_radii() makes such matrices.
+/// order, quotient, coarsest: in progressive order each class is sorted coarse to fine, and the points have ranks.
 /// given_clearances: float64, shape (m, k). The others are those of kdrt_sample.
 ///
 /// Returns Points with classes.
 #[pyfunction]
 #[pyo3(signature = (
-    radii, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
-    given_positions=None, given_clearances=None, threads=0, progress=None
+    radii, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0, order="any",
+    quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample_classes(
     py: Python<'_>,
@@ -192,6 +190,9 @@ pub(crate) fn kdrt_sample_classes(
     boundary: &str,
     leaf_size: f64,
     seed: i128,
+    order: &str,
+    quotient: Option<f64>,
+    coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
     threads: i128,
@@ -199,7 +200,8 @@ pub(crate) fn kdrt_sample_classes(
 ) -> PyResult<Points> {
     let classes = matrix(radii)?;
     let domain = domain(domain_min, domain_max, boundary)?;
-    let request = Request::new(domain, leaf_size, seed, ("any", None, None), (given_positions, given_clearances))?;
+    let given = (given_positions, given_clearances);
+    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
     let request = request.by_classes(0.0, &classes)?;
     let set = Watch::new(py, threads, progress)?.run(|context, progress| kdrt::sample(context, &request, progress))?;
     Points::classified(py, set)

@@ -30,10 +30,7 @@ struct Density {
     count: Option<u64>,
     /// Several classes of samples with their own radii, such as 0.04,0.02,0.01. The distance of samples of two classes
     /// follows from their radii (Wei 2010). The output, .ply, .npy or .csv, has a column `class`.
-    #[arg(
-        long, value_name = "R,R,..", value_delimiter = ',', allow_negative_numbers = true,
-        conflicts_with_all = ["order", "quotient", "coarsest"]
-    )]
+    #[arg(long, value_name = "R,R,..", value_delimiter = ',', allow_negative_numbers = true)]
     classes: Option<Vec<f64>>,
 }
 
@@ -173,7 +170,8 @@ impl Plane {
         let around = self.around()?;
         let around = around.of_classes(classes.count());
         let domain = self.domain.or_unit();
-        let options = kdrt::Options::classes(classes).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
+        let kind = self.levels().map_or(Kind::Classes(classes), |levels| Kind::ProgressiveClasses(classes, levels));
+        let options = kdrt::Options::of(kind).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
         let options = options.given(around.given());
         let (set, domain) = match self.window() {
             Some(window) => {
@@ -186,7 +184,8 @@ impl Plane {
             }
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &PlaneTable { classes: &set.classes, ..PlaneTable::of(&set.positions) })?;
+        output
+            .write_plane(&domain, &PlaneTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes })?;
         report(&output.output, set.len(), &shares(classes, &set), seconds);
         Ok(())
     }

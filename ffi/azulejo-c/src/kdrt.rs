@@ -432,10 +432,11 @@ impl azulejo_kdrt_options {
         check_unused("radius", self.radius, 0.0, "with classes")?;
         check_unused("count", self.count, 0, "with classes")?;
         check_unused("measure_covering_radius", self.measures_covering_radius()?, false, "with classes")?;
-        if self.levels()?.is_some() {
-            return Err(Failure::invalid("order", "sets of several classes have no progressive order"));
-        }
-        self.request(Kind::Classes(classes), self.given(classes.count())?)
+        let kind = match self.levels()? {
+            None => Kind::Classes(classes),
+            Some(levels) => Kind::ProgressiveClasses(classes, levels),
+        };
+        self.request(kind, self.given(classes.count())?)
     }
 
     fn by_radius(&self) -> Result<kdrt::Options<'_>, Failure> {

@@ -27,15 +27,24 @@ use crate::status::azulejo_status;
 /// radii have 0.79 each, 0.90 with factor 0.85, 0.95 with factor 0.7. Two radii that are nearly
 /// equal give other shares than two equal ones: 1 and 0.9 give 1 and 0.68.
 ///
+/// In progressive order the samples of each class are sorted coarse to fine, and
+/// azulejo_points_ranks has their ranks, which are radii of levels. Of the classes of equal own
+/// radii R, the samples up to a rank t are at least r_ij * t / R apart, and every point of the
+/// domain is within `quotient` * r_ij * t / R of one of them, or within r_ij of a sample of a class
+/// of larger own radius; where a class has less than 100 of them, within 2 or `quotient`^2 times
+/// that instead. So a host can show the first part of each class, near parts of a scene more than
+/// far ones. It takes some ten times the time.
+///
 /// options: `radius` must be 0, since classes have radii of their own; `count` and
-/// `measure_covering_radius` must be 0 and `order` any. `given_clearances`, if not NULL, has
-/// given_count rows, each with a clearance for each class; NULL: each class's own radius.
+/// `measure_covering_radius` must be 0. `coarsest` is the radius of the first level of each class,
+/// at least the largest own radius. `given_clearances`, if not NULL, has given_count rows, each
+/// with a clearance for each class; NULL: each class's own radius.
 ///
 /// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
 /// order.
 ///
 /// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
-/// y and x; to be freed with azulejo_points_free.
+/// y and x, in progressive order by falling rank; to be freed with azulejo_points_free.
 ///
 /// report: how many samples each class has, or NULL.
 ///
@@ -83,7 +92,9 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
 ///
 /// A window takes O(samples in and around it) time and memory: classes of one own radius depend on
 /// what lies within about 30 times the largest r_ij between two of them, and one between them and
-/// classes of larger radii, and these on what lies around that again.
+/// classes of larger radii, and these on what lies around that again. In progressive order each
+/// level adds 30 times its r_ij: windows of large domains need a `coarsest` of a few times the
+/// largest own radius.
 ///
 /// O(samples of the pattern) time. The plane takes what that of azulejo_kdrt_create takes for the
 /// largest own radius, and 1 byte for each of the other radii on the sides of the domain. On a

@@ -21,11 +21,13 @@ use crate::job::{Job, chunks_of};
 use crate::kdrt::{
     blocks::{Blocks, PHASES},
     classes::{filling::ClassFilling, filling::ExclusionDisk},
-    options::Options,
+    options::{Options, Progressive},
+    progressive,
     region::{Part, Placed, Region},
     stack::{Base, Layer, Stack},
     tiling::Tiling,
 };
+use crate::math::rounded_down;
 use crate::memory;
 use crate::plane::{
     CellAxis, GivenDisks,
@@ -51,19 +53,55 @@ pub fn stack(job: &Job, lattice: &Lattice, options: &Options, classes: &Classes)
         }
         _ => None,
     };
-    let base = base.map(|base| (base, Sample { point: [0; 2], class: groups[0][0] as u32 }));
+    let base = base.map(|base| (base, Sample { point: [0; 2], class: groups[0][0] as u16, layer: 0 }));
     let filled = (usize::from(base.is_some())..groups.len())
-        .map(|number| Group::new(domain, lattice, classes, number, &given, seed));
-    let filled = filled.collect();
+        .map(|number| {
+            let stage = Stage { radius: classes.own(groups[number][0]), former: None, layer: 0 };
+            Group::new(domain, lattice, classes, number, stage, &given, group_seed(seed, number))
+        })
+        .collect();
     Ok(Stack::new(lattice.clone(), base, filled))
 }
 
-/// Puts samples in order.
-pub fn ordered(lattice: &Lattice, mut samples: Vec<Sample>) -> Points<2> {
-    samples.sort_unstable_by_key(|sample| (sample.class, sample.point[1], sample.point[0]));
+/// The levels of all groups of a plane of several classes, each of which is in progressive order, and the rank of each
+/// layer.
+pub fn levels(
+    lattice: &Lattice,
+    options: &Options,
+    classes: &Classes,
+    levels: &Progressive,
+) -> (Stack<Group>, Vec<f32>) {
+    let &Options { ref domain, seed, given, .. } = options;
+    let (mut layers, mut ranks) = (Vec::new(), Vec::new());
+    for (number, members) in classes.groups().iter().enumerate() {
+        let (own, seed) = (classes.own(members[0]), group_seed(seed, number));
+        let mut former = None;
+        for (step, radius) in (0..).zip(progressive::radii(domain, own, levels)) {
+            let (stage, seed) = (Stage { radius, former, layer: ranks.len() as u16 }, hash(seed, Draw::Level, &[step]));
+            layers.push(Group::new(domain, lattice, classes, number, stage, &given, seed));
+            ranks.push(rounded_down(radius.min(progressive::longest(domain))));
+            former = Some(radius);
+        }
+    }
+    (Stack::new(lattice.clone(), None, layers), ranks)
+}
+
+fn group_seed(seed: u64, number: usize) -> u64 {
+    hash(seed, Draw::Group, &[number as u64])
+}
+
+/// Puts samples in order: in progressive order those of a level at random.
+pub fn ordered(lattice: &Lattice, ranks: &[f32], mut samples: Vec<Sample>) -> Points<2> {
+    let shuffled = |[x, y]: [i32; 2]| {
+        if ranks.is_empty() { 0 } else { hash(0, Draw::Level, &[x as u64, y as u64]) }
+    };
+    let key = |sample: &Sample| (sample.class, sample.layer, shuffled(sample.point), sample.point[1], sample.point[0]);
+    samples.sort_unstable_by_key(key);
+    let ranked = if ranks.is_empty() { &[][..] } else { &samples[..] };
     Points {
         positions: samples.iter().map(|sample| lattice.position(sample.point)).collect(),
-        classes: samples.iter().map(|sample| sample.class).collect(),
+        classes: samples.iter().map(|sample| sample.class.into()).collect(),
+        ranks: ranked.iter().map(|sample| ranks[usize::from(sample.layer)]).collect(),
         ..Points::default()
     }
 }
@@ -95,7 +133,9 @@ const FEWEST_BYTES: f64 = 1e7;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     pub point: [i32; 2],
-    pub class: u32,
+    pub class: u16,
+    /// The number of its layer in the stack, in progressive order; otherwise 0.
+    pub layer: u16,
 }
 
 impl Placed for Sample {
@@ -118,15 +158,16 @@ pub struct Group {
     separations: Vec<Vec<Option<Separation>>>,
     /// For each class of the group, the disks of the given samples.
     around: Vec<GivenDisks>,
-    /// The largest distance, along each axis, at which samples of the groups before matter.
+    /// The largest distance, along each axis, at which samples of the layers before matter.
     sight: [i32; 2],
     /// The largest distance, along an axis, at which samples of the group matter.
     reach: i32,
-    /// The smallest own radius of the groups before, in lattice units.
+    /// The smallest own radius of the layers before, in lattice units.
     before: f64,
     /// None on a torus on which blocks could see themselves: it is filled as a whole.
     blocks: Option<Blocks>,
     seed: u64,
+    layer: u16,
     pub level: Level,
 }
 
@@ -139,6 +180,17 @@ pub struct Known<'a> {
     made: &'a Made,
 }
 
+/// The stage at which a group is made: the whole of it or, in progressive order, a level.
+#[derive(Clone, Copy)]
+pub struct Stage {
+    /// The own radius. Those between the classes of the group are multiplied as it is.
+    pub radius: f64,
+    /// The own radius of the level before.
+    pub former: Option<f64>,
+    /// The number of the layer in the stack.
+    pub layer: u16,
+}
+
 impl Group {
     /// The group with this number, in the order of falling own radius. The lattice is that of the domain.
     pub fn new(
@@ -146,49 +198,56 @@ impl Group {
         lattice: &Lattice,
         classes: &Classes,
         number: usize,
+        stage: Stage,
         given: &Given<2>,
         seed: u64,
     ) -> Self {
         let groups = classes.groups();
         let (before, members) = (groups[..number].concat(), groups[number].clone());
-        let lattice = lattice.with_radius(classes.own(members[0]));
+        let own = classes.own(members[0]);
+        let scale = stage.radius / own;
+        let between = |class: usize, other: usize| {
+            classes.radius(class, other) * if members.contains(&other) { scale } else { 1.0 }
+        };
+        let lattice = lattice.with_radius(stage.radius);
         let separations: Vec<Vec<_>> = members
             .iter()
             .map(|&class| {
                 let known = |other: &usize| before.contains(other) || members.contains(other);
-                let kept = |other| Some(classes.radius(class, other)).filter(|&radius| radius > 0.0 && known(&other));
+                let kept = |other| Some(between(class, other)).filter(|&radius| radius > 0.0 && known(&other));
                 (0..classes.count())
                     .map(|other| kept(other).map(|radius| lattice.with_radius(radius).separation))
                     .collect()
             })
             .collect();
         let longest = |others: &[usize]| {
-            let pairs = members.iter().flat_map(|&class| others.iter().map(move |&other| classes.radius(class, other)));
+            let pairs = members.iter().flat_map(|&class| others.iter().map(move |&other| between(class, other)));
             pairs.fold(0.0, f64::max)
         };
-        let sight = lattice.with_radius(longest(&before)).separation.reach;
+        let in_group = if stage.former.is_some() { longest(&members) } else { 0.0 };
+        let sight = lattice.with_radius(longest(&before).max(in_group)).separation.reach;
         let sight = lattice.size.map(|size| match lattice.boundary {
             // Of a sample whose disk reaches around the torus, the nearest image excludes all that any image does.
             Boundary::Periodic => sight.min(size / 2 + 1),
             Boundary::Bounded => sight,
         });
-        let seed = hash(seed, Draw::Group, &[number as u64]);
         let widest = lattice.with_radius(longest(&members));
         let around = |&class: &usize| {
             let clearances = given.clearances_of_class(class, classes.count());
             let given = Given { positions: given.positions, clearances: clearances.as_deref() };
-            GivenDisks::new(domain, &lattice, classes.own(class), &given)
+            GivenDisks::new(domain, &lattice.with_radius(own), own, &given)
         };
+        let smallest = groups[..number].last().map(|group| classes.own(group[0]));
+        let smallest = stage.former.into_iter().chain(smallest).reduce(f64::min);
         Self {
             around: members.iter().map(around).collect(),
             separations,
             sight,
             reach: widest.separation.reach,
-            before: groups[..number]
-                .last()
-                .map_or(lattice.radius, |group| lattice.with_radius(classes.own(group[0])).radius),
+            before: smallest.map_or(lattice.radius, |radius| lattice.with_radius(radius).radius),
             blocks: Blocks::fit(&widest).then(|| Blocks::new(&widest, seed)),
             seed,
+            layer: stage.layer,
             level: Level::widest(),
             classes: members,
             lattice,
@@ -263,7 +322,7 @@ impl Group {
             Pass::Last | Pass::Only => filling.next_sample(rng),
         };
         while let Some((class, point)) = next(filling, rng) {
-            let sample = Sample { point, class: self.classes[class] as u32 };
+            let sample = Sample { point, class: self.classes[class] as u16, layer: self.layer };
             self.exclude_images(filling, &sample, images);
             samples.push(sample);
         }

@@ -6,6 +6,7 @@
 //! at equal rates.
 
 mod layers;
+mod levels;
 mod site;
 
 use std::sync::Arc;
@@ -14,20 +15,17 @@ use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::host::Stopwatch;
-use crate::job::{Context, Job, Progress};
+use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
-use crate::order::Order;
 use crate::points::{Points, check_resolution};
-use crate::psp::classes::layers::Layers;
-use crate::psp::classes::site::{Group, Places};
-use crate::psp::fill::FillOptions;
+use crate::psp::classes::levels::{GroupLevels, is_ranked};
+use crate::psp::classes::site::Places;
 use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
-use crate::psp::levels::{Levelled, Levels, by_radius, top};
-use crate::psp::options::{ClassOptions, check_quotient};
+use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
-use crate::psp::samples::{Sample, surface_samples};
+use crate::psp::samples::surface_samples;
 use crate::rng::{Draw, hash};
 
 /// Samples a mesh with several classes at once.
@@ -79,9 +77,7 @@ pub fn sample_classes(
     let stopwatch = Stopwatch::start();
     check_masks(mesh, masks)?;
     check_radii(mesh, classes)?;
-    if options.order == Order::Progressive {
-        check_quotient(options.quotient)?;
-    }
+    let is_ranked = is_ranked(options)?;
     let facing = Facing::new(options.cosine)?;
     let given = obstacles_of_classes(mesh, options.given, classes)?;
     let measures = &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
@@ -89,25 +85,15 @@ pub fn sample_classes(
     let places = Places { mesh, measures, masks, given: &given, none, facing };
     let groups = classes.groups();
     let groups: Vec<_> = groups.iter().map(|members| GroupLevels { places, classes, members, earlier: &[] }).collect();
-    let expected: f64 = groups.iter().map(|group| group.expected(group.own())).sum();
+    let expected: f64 = groups.iter().map(GroupLevels::expected_samples).sum();
     require_samples(expected, BYTES_PER_SAMPLE, "radii", "they ask for")?;
     let (mut samples, darts) = context.run(progress, |job| {
         let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
         for (number, group) in (0..).zip(groups) {
-            let next = (done + group.expected(group.own()) / expected.max(1.0)).min(1.0);
+            let next = (done + group.expected_samples() / expected.max(1.0)).min(1.0);
             let (job, seed) = (&job.part(done, next), hash(options.seed, Draw::Group, &[number]));
             let thrown;
-            (samples, thrown) = match options.order {
-                Order::Any => {
-                    let fill = FillOptions { measures: false, ..FillOptions::from_nothing(seed) };
-                    group.at(group.own(), None).fill(job, samples, fill)?
-                }
-                Order::Progressive => {
-                    let (own, levels) = (group.own(), Levels::new(GroupLevels { earlier: &samples, ..group }, seed));
-                    let set = by_radius(job, levels, options.quotient, own)?;
-                    ([samples, set.samples].concat(), set.darts)
-                }
-            };
+            (samples, thrown) = GroupLevels { earlier: &samples, ..group }.complete(job, options, seed)?;
             darts += thrown;
             done = next;
         }
@@ -122,61 +108,10 @@ pub fn sample_classes(
     };
     let mut set = surface_samples(mesh, samples.iter());
     set.classes = samples.iter().map(|sample| sample.class.into()).collect();
-    if options.order == Order::Progressive {
+    if is_ranked {
         set.ranks = samples.iter().map(|sample| sample.rank).collect();
     }
     Ok((set, report))
-}
-
-/// The levels of a group: its own radius, and the radii between its classes, are multiplied by one number. Those to
-/// earlier classes stay.
-struct GroupLevels<'a> {
-    places: Places<'a>,
-    classes: &'a Classes,
-    members: &'a [usize],
-    /// The samples of earlier classes.
-    earlier: &'a [Sample],
-}
-
-impl GroupLevels<'_> {
-    /// The own radius.
-    fn own(&self) -> f64 {
-        self.classes.own(self.members[0])
-    }
-
-    /// The group at another own radius.
-    fn at(&self, radius: f64, largest_rank: Option<f64>) -> Group<'_> {
-        Group {
-            places: self.places,
-            members: self.members.iter().map(|&class| class as u8).collect(),
-            radius,
-            layers: Layers::new(self.classes, self.members, radius / self.own()),
-            largest_rank,
-        }
-    }
-}
-
-impl Levelled for GroupLevels<'_> {
-    type Sample = Sample;
-
-    fn top(&self) -> f64 {
-        top(self.places.mesh)
-    }
-
-    fn expected(&self, radius: f64) -> f64 {
-        self.at(radius, None).expected_samples()
-    }
-
-    fn has_given(&self) -> bool {
-        !self.earlier.is_empty()
-    }
-
-    fn fill(&self, job: &Job, options: FillOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
-        let group = self.at(radius, options.largest_rank);
-        let (mut samples, darts) = group.fill(job, [self.earlier, samples].concat(), options)?;
-        samples.retain(|sample| group.members.contains(&sample.class));
-        Ok((samples, darts))
-    }
 }
 
 /// For each class, the given samples with their clearances from it, of which each sample has a row; without clearances,
