@@ -49,7 +49,13 @@ fn plane_samples_of_several_classes() {
         assert_eq!(fs::read_to_string(workshop.path("none.csv")).unwrap(), "x,y\n", "{name}");
     }
     workshop.refuse(&[&set[..], &["-o", "a.raw"]].concat(), 1);
-    workshop.refuse(&[&set[..], &["--order", "progressive", "-o", "a.ply"]].concat(), 2);
+    // In progressive order the ranks of each class fall.
+    workshop.succeed(&[&set[..], &["--order", "progressive", "-o", "ordered.csv"]].concat());
+    let text = fs::read_to_string(workshop.path("ordered.csv")).unwrap();
+    assert!(text.starts_with("x,y,rank,class\n"), "{}", &text[..40]);
+    let of_row = |row: Vec<&str>| (row[3].parse::<i32>().unwrap(), -row[2].parse::<f64>().unwrap());
+    assert!(text.lines().skip(1).map(|line| of_row(line.split(',').collect())).is_sorted());
+    workshop.refuse(&[&set[..], &["--order", "progressive", "-o", "a.raw"]].concat(), 1);
     workshop.refuse(&["plane", "--radius", "0.1", "--class-factor", "2", "-o", "a.ply"], 2);
     let said = workshop.refuse(&["plane", "--classes", "0.1,0", "-o", "a.ply"], 1);
     assert!(said.starts_with("error: own: [1] is 0.0"), "{said}");

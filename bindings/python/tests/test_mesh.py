@@ -76,6 +76,11 @@ def test_classes_keep_their_distances(mesh):
         for j in range(2):
             a, b = (points.positions[points.classes == k] for k in (i, j))
             assert smallest_distance(a, None if i == j else b) >= radii[i, j]
+    ordered = azulejo.psp_sample_classes(mesh, radii, order="progressive")
+    for i in range(2):
+        ranks = ordered.ranks[ordered.classes == i]
+        assert (np.diff(ranks) <= 0).all()
+        assert smallest_distance(ordered.positions[ordered.classes == i][:12]) >= ranks[11]
 
 
 def test_radii_vary(mesh):

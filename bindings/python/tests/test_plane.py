@@ -72,6 +72,12 @@ def test_classes_keep_their_distances():
             assert smallest_distance(a, None if i == j else b, period=1.0) >= radii[i, j]
     window = azulejo.KdrtPlane(radii=radii).window((0, 0), (0.5, 0.5))
     assert set(window.classes) == {0, 1}
+    ordered = azulejo.kdrt_sample_classes(radii, order="progressive", quotient=1.3)
+    for i in range(2):
+        ranks = ordered.ranks[ordered.classes == i]
+        assert (np.diff(ranks) <= 0).all() and ranks[-1] == np.float32(radii[i, i])
+        first = ordered.positions[ordered.classes == i][:20]
+        assert smallest_distance(first, period=1.0) >= ranks[19]
 
 
 def test_a_stream_is_the_plane_part_by_part():
