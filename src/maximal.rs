@@ -15,8 +15,9 @@ use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng};
 use crate::setters::setters;
 
-/// The most bytes that a cell takes while it is sampled: its sample and its voxels of two levels.
-const BYTES_PER_CELL: f64 = 40.0;
+/// The most bytes of address space that a cell takes while it is sampled: its sample, its voxels of two levels, and their
+/// copies while arrays grow.
+const BYTES_PER_CELL: f64 = 100.0;
 
 /// The options of a maximal set.
 #[derive(Clone, Copy, Debug, PartialEq)]

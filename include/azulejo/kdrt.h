@@ -295,11 +295,11 @@ void azulejo_kdrt_free(azulejo_kdrt *plane);
 ///
 /// In progressive order the samples of each class are sorted coarse to fine, and
 /// azulejo_points_ranks has their ranks, which are radii of levels. Of the classes of equal own
-/// radii R, the samples up to a rank t are at least r_ij * t / R apart, and every point of the
-/// domain is within `quotient` * r_ij * t / R of one of them, or within r_ij of a sample of a class
-/// of larger own radius; where a class has less than 100 of them, within 2 or `quotient`^2 times
-/// that instead. So a host can show the first part of each class, near parts of a scene more than
-/// far ones. It takes some ten times the time.
+/// radii R, the samples up to a rank t are at least r_ij t / R apart, and every point of the domain
+/// is within `quotient` times r_ij t / R of one of them, or within r_ij of a sample of a class of
+/// larger own radius; where a class has less than 100 of them, within 2 or the square of `quotient`
+/// times that instead. So a host can show the first part of each class, near parts of a scene more
+/// than far ones. It takes about eight times the time.
 ///
 /// options: `radius` must be 0, since classes have radii of their own; `count` and
 /// `measure_covering_radius` must be 0. `coarsest` is the radius of the first level of each class,

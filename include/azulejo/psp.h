@@ -288,11 +288,12 @@ azulejo_status azulejo_psp_sample(const azulejo_context *context,
 /// In progressive order the samples of each class are sorted coarse to fine, and
 /// azulejo_points_ranks has their ranks. The first samples of a class, any number of them, are at
 /// least as far apart as the last of their ranks. Of the classes of equal own radii R, the samples
-/// up to a rank t are at least r_ij * t / R apart (of infinite ranks, r_ij * d / R for the diagonal
-/// d of the mesh's box), and where these classes may stand every place is within `quotient` * r_ij
-/// * t / R of one of them, or within r_ij of a sample of a class of larger radius; of less than 100
-/// of them, within 2 or `quotient`^2 times that instead. So a host can show the first part of each
-/// class, near parts of a scene more than far ones. The order takes several times the time.
+/// up to a rank t are at least r_ij t / R apart (of infinite ranks, r_ij d / R for the diagonal d
+/// of the mesh's box), and where these classes may stand every place is within `quotient` times
+/// r_ij t / R of one of them, or within r_ij of a sample of a class of larger radius; of less than
+/// 100 of them, within 2 or the square of `quotient` times that instead. So a host can show the
+/// first part of each class, near parts of a scene more than far ones. The order takes about seven
+/// times the time.
 ///
 /// options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
 /// `priority` and `engine` must have their defaults. `given_clearances` has a row for each given
