@@ -682,30 +682,11 @@ public:
     }
 };
 
-/// See azulejo_kdrt_options; `radius` or `count` is to be set.
-class KdrtOptions : public PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init> {
-public:
-    /// Sets `given_positions`, x y each, `given_count` and `given_clearances`: none, so that all have
-    /// the radius, or as many as positions times the number of classes, 1 in calls without; calls
-    /// refuse the options if they are not. The arrays stay the caller's.
-    void set_given(Span<const float> positions, Span<const double> clearances = {},
-                   std::size_t classes = 1) noexcept {
-        this->given_count = positions.size() / 2;
-        const bool fits =
-            clearances.size() == 0 || clearances.size() == this->given_count * classes;
-        this->given_positions = fits ? positions.data() : nullptr;
-        this->given_clearances = clearances.size() == 0 ? nullptr : clearances.data();
-    }
-};
-/// See azulejo_kdrt_merge_options; `radius` has no default.
-using KdrtMergeOptions = PlaneOptions<azulejo_kdrt_merge_options, azulejo_kdrt_merge_options_init>;
-/// See azulejo_maximal_options; `radius` has no default.
-using MaximalOptions = PlaneOptions<azulejo_maximal_options, azulejo_maximal_options_init>;
 namespace detail {
 
 /// Sets the given samples of options; NULL for them, which the call refuses, where they do not fit.
-template <class C>
-void set_given(C &options, const SpacePoints &positions, Span<const double> clearances,
+template <class C, std::size_t width>
+void set_given(C &options, const Tuples<float, width> &positions, Span<const double> clearances,
                bool has_clearances, std::size_t classes = 1) {
     const bool fits = positions.check("given_positions").ok() &&
                       (!has_clearances || clearances.size() == positions.size() * classes);
@@ -716,6 +697,28 @@ void set_given(C &options, const SpacePoints &positions, Span<const double> clea
 
 } // namespace detail
 
+/// See azulejo_kdrt_options; `radius` or `count` is to be set.
+class KdrtOptions : public PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init> {
+public:
+    /// Sets the samples that are given, which stay the caller's. All have the radius of the set, or
+    /// of each class, as their clearance.
+    void set_given(const PlanePoints &positions) { detail::set_given(*this, positions, {}, false); }
+
+    /// The same with clearances of their own, one for each: the call refuses another number.
+    void set_given(const PlanePoints &positions, Span<const double> clearances) {
+        detail::set_given(*this, positions, clearances, true);
+    }
+
+    /// The same for sets of several classes: each has a row of clearances, one for each class.
+    void set_given(const PlanePoints &positions, Span<const double> clearances,
+                   std::uint32_t classes) {
+        detail::set_given(*this, positions, clearances, true, classes);
+    }
+};
+/// See azulejo_kdrt_merge_options; `radius` has no default.
+using KdrtMergeOptions = PlaneOptions<azulejo_kdrt_merge_options, azulejo_kdrt_merge_options_init>;
+/// See azulejo_maximal_options; `radius` has no default.
+using MaximalOptions = PlaneOptions<azulejo_maximal_options, azulejo_maximal_options_init>;
 /// See azulejo_psp_options; `radius` or `count` is to be set.
 class PspOptions : public Options<azulejo_psp_options, azulejo_psp_options_init> {
 public:

@@ -244,6 +244,8 @@ void counts() {
     CHECK(azulejo::kdrt_sample(context, options).size() > 700);
     options.set_given(ordered.positions(), {clearances.data(), 776});
     CHECK(refused("given_positions", [&] { azulejo::kdrt_sample(context, options); }));
+    options.set_given(std::vector<float>{0.1F, 0.1F, 0.5F, 0.5F, 0.9F}); // half a point too many
+    CHECK(refused("given_positions", [&] { azulejo::kdrt_sample(context, options); }));
     options.set_given({});
     options.count = 777;
     options.radius = 0.1;
