@@ -130,8 +130,9 @@
  *
  * Memory. Requests that memory cannot hold are refused with AZULEJO_ERROR_TOO_LARGE before memory
  *   is taken; the free memory of the machine counts, and the limits of the process (ulimit -v) and
- *   of its control groups. Only Linux is asked for these. If memory runs out during a call
- *   nevertheless, the process is aborted.
+ *   of its control groups. Only Linux is asked for these. What the estimates do not foresee, such
+ *   as memory that other threads and processes take during a call, or the 64 MB of address space
+ *   that glibc gives to a thread, aborts the process if memory runs out.
  *
  * Complexity is that of the whole call on one thread; all threads of the context share the work,
  *   except where a text says otherwise. "Evenly spread" points are as dense, up to a small factor,

@@ -15,6 +15,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::host::process_id;
+use crate::memory;
 
 /// The polling interval of progress, on the calling thread.
 const REPORT_INTERVAL: Duration = Duration::from_millis(20);
@@ -60,6 +61,11 @@ impl Context {
             .thread_name(|i| format!("azulejo-{i}"))
             .build()
             .map_err(|error| Error::Threads { threads, reason: error.to_string() })?;
+        if memory::has_address_limit() {
+            // The first allocation of a thread reserves address space of its own. It must be there before memory is
+            // asked for.
+            pool.broadcast(|_| drop(std::hint::black_box(Box::new(0u8))));
+        }
         Ok(Self { pool: Some(ManuallyDrop::new(pool)), process })
     }
 

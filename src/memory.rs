@@ -4,6 +4,10 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
+/// The bytes that tables, patterns and the allocator take besides those that grow with a large request; as much as this
+/// for small ones. Found by `tests/c/memory_limits.c`.
+const SLACK: f64 = (6 << 20) as f64;
+
 /// Refuses with [`Error::TooLarge`] when `bytes` are more than the machine, the process's limit of address space and
 /// its control groups (those of a container, say) can give now. `argument` is the option that asks for them and `what`
 /// names their use: "3000000 samples".
@@ -11,6 +15,7 @@ use crate::error::{Error, Result};
 /// Nothing is refused where the operating system does not tell the limit (only Linux is asked), except on WebAssembly,
 /// where a failed allocation would abort the program: there, memory that cannot be reserved at once is refused.
 pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
+    let bytes = bytes + (2.0 * bytes).min(SLACK);
     if !can_be_reserved(bytes) {
         return Err(Error::too_large(
             argument,
@@ -61,9 +66,18 @@ fn entry(table: &str, name: &str) -> Option<f64> {
     Some(kibibytes * 1024.0)
 }
 
+/// True if the process has a limit of address space.
+pub(crate) fn has_address_limit() -> bool {
+    address_limit().is_some()
+}
+
+fn address_limit() -> Option<f64> {
+    soft_limit(&read("/proc/self/limits")?)
+}
+
 /// The memory that the process's limit (`ulimit -v`) leaves, if it has one.
 fn address_space() -> Option<f64> {
-    Some(soft_limit(&read("/proc/self/limits")?)? - entry(&read("/proc/self/status")?, "VmSize:")?)
+    Some(address_limit()? - entry(&read("/proc/self/status")?, "VmSize:")?)
 }
 
 /// The soft limit of the address space in the table of limits, unless it is "unlimited".

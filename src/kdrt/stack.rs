@@ -19,9 +19,9 @@ use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::Domain;
 use crate::{maximal, memory};
 
-/// The number of samples, of some 16 MB, from which on the available memory is checked: the query takes about 0.1 ms,
-/// as long as making a small window.
-const FEWEST_REFUSED: f64 = 1e6;
+/// The number of samples from which on the available memory is checked: the query takes about 0.1 ms, as long as making a
+/// small window.
+const FEWEST_REFUSED: f64 = 65_536.0;
 
 /// The most bytes that a sample takes: in the result and in the windows being made.
 pub const BYTES_PER_SAMPLE: f64 = 16.0;
