@@ -120,7 +120,7 @@ inline bool has_embree() noexcept { return azulejo_has_embree() != 0; }
 // ---- Arrays ------------------------------------------------------------------------------------
 
 /// An array that belongs to another object: a pointer and a size. What accessors return is valid as
-/// long as the object that they were called on.
+/// long as the object that they were called on, which therefore must have a name.
 template <class T>
 class Span {
 public:
@@ -157,6 +157,32 @@ public:
 
 private:
     std::uint32_t dimension_ = 0;
+};
+
+namespace detail {
+
+/// True if C is a view of elements that belong to another object, such as std::span: its own
+/// constness says nothing of theirs.
+template <class C, class = void>
+inline constexpr bool is_view = false;
+template <class C>
+inline constexpr bool is_view<C, std::void_t<decltype(std::declval<C &>().data())>> =
+    std::is_same_v<decltype(std::declval<C &>().data()), decltype(std::declval<const C &>().data())>;
+
+} // namespace detail
+
+/// A Span or Tuples that is kept beyond a call, in options and structs: it cannot be made of a
+/// temporary that owns its elements.
+template <class View>
+class Borrowed : public View {
+public:
+    using View::View;
+    constexpr Borrowed() noexcept = default;
+    constexpr Borrowed(const View &view) noexcept : View(view) {}
+    template <class C, std::enable_if_t<!std::is_lvalue_reference_v<C> &&
+                                            !detail::is_view<std::remove_cv_t<C>>,
+                                        int> = 0>
+    Borrowed(C &&temporary) = delete;
 };
 
 // ---- Owners ------------------------------------------------------------------------------------
@@ -202,39 +228,48 @@ public:
     /// 2 for samples of the plane, 3 for samples of a mesh; see azulejo_points_dimension.
     std::uint32_t dimension() const noexcept { return azulejo_points_dimension(get()); }
     /// dimension() coordinates for each sample; see azulejo_points_positions.
-    Positions positions() const noexcept {
+    Positions positions() const & noexcept {
         return {azulejo_points_positions(get()), size(), dimension()};
     }
+    Positions positions() const && = delete;
     /// x y z for each sample of a mesh; empty for the plane, as are the next three. See
     /// azulejo_points_normals.
-    Span<const float> normals() const noexcept { return array(azulejo_points_normals(get()), 3); }
+    Span<const float> normals() const & noexcept { return array(azulejo_points_normals(get()), 3); }
+    Span<const float> normals() const && = delete;
     /// The mesh's own normals, x y z each; empty if it has none. See
     /// azulejo_points_interpolated_normals.
-    Span<const float> interpolated_normals() const noexcept {
+    Span<const float> interpolated_normals() const & noexcept {
         return array(azulejo_points_interpolated_normals(get()), 3);
     }
+    Span<const float> interpolated_normals() const && = delete;
     /// The triangle of each sample; see azulejo_points_triangles.
-    Span<const std::uint32_t> triangles() const noexcept {
+    Span<const std::uint32_t> triangles() const & noexcept {
         return array(azulejo_points_triangles(get()), 1);
     }
+    Span<const std::uint32_t> triangles() const && = delete;
     /// u v for each sample; see azulejo_points_barycentrics.
-    Span<const float> barycentrics() const noexcept {
+    Span<const float> barycentrics() const & noexcept {
         return array(azulejo_points_barycentrics(get()), 2);
     }
+    Span<const float> barycentrics() const && = delete;
     /// The radius of each sample of psp_adaptive_sample; empty for other sets. See
     /// azulejo_points_radii.
-    Span<const double> radii() const noexcept { return array(azulejo_points_radii(get()), 1); }
+    Span<const double> radii() const & noexcept { return array(azulejo_points_radii(get()), 1); }
+    Span<const double> radii() const && = delete;
     /// The rank of each sample of a set in progressive order; empty for other sets. See
     /// azulejo_points_ranks.
-    Span<const float> ranks() const noexcept { return array(azulejo_points_ranks(get()), 1); }
+    Span<const float> ranks() const & noexcept { return array(azulejo_points_ranks(get()), 1); }
+    Span<const float> ranks() const && = delete;
     /// The class of each sample of a set of several; empty for other sets. See
     /// azulejo_points_classes.
-    Span<const std::uint32_t> classes() const noexcept {
+    Span<const std::uint32_t> classes() const & noexcept {
         return array(azulejo_points_classes(get()), 1);
     }
+    Span<const std::uint32_t> classes() const && = delete;
     /// The id of each sample of a Psp that has been edited; empty for other sets. See
     /// azulejo_points_ids.
-    Span<const std::uint64_t> ids() const noexcept { return array(azulejo_points_ids(get()), 1); }
+    Span<const std::uint64_t> ids() const & noexcept { return array(azulejo_points_ids(get()), 1); }
+    Span<const std::uint64_t> ids() const && = delete;
 
 private:
     template <class T>
@@ -477,7 +512,7 @@ struct Domain {
 /// Points of the plane and where they lie, such as {points, options}; see azulejo_plane_set. The
 /// points stay the caller's.
 struct PlaneSet {
-    PlanePoints positions;
+    Borrowed<PlanePoints> positions;
     Domain domain{};
 };
 
@@ -684,59 +719,80 @@ public:
 
 namespace detail {
 
-/// Sets the given samples of options; NULL for them, which the call refuses, where they do not fit.
+/// Sets the given samples of options, on success only. `clearances` may be null: all samples have
+/// the radius of the set.
 template <class C, std::size_t width>
-void set_given(C &options, const Tuples<float, width> &positions, Span<const double> clearances,
-               bool has_clearances, std::size_t classes = 1) {
-    const bool fits = positions.check("given_positions").ok() &&
-                      (!has_clearances || clearances.size() == positions.size() * classes);
-    options.given_positions = fits ? positions.data() : nullptr;
-    options.given_clearances = fits && has_clearances ? clearances.data() : nullptr;
-    options.given_count = positions.size() + !fits;
+Status try_set_given(C &options, const Tuples<float, width> &positions,
+                     const Span<const double> *clearances, std::size_t classes) {
+    if (Status s = positions.check("given_positions"); !s.ok()) return s;
+    const std::size_t count = positions.size() * classes;
+    if (clearances != nullptr && clearances->size() != count) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "given_clearances: there are " + std::to_string(clearances->size()) +
+                          ", and " + std::to_string(count) + " are needed");
+    }
+    options.given_positions = positions.data();
+    options.given_clearances = clearances != nullptr ? clearances->data() : nullptr;
+    options.given_count = positions.size();
+    return Status();
 }
 
 } // namespace detail
 
-/// See azulejo_kdrt_options; `radius` or `count` is to be set.
-class KdrtOptions : public PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init> {
+/// Options with given samples, which stay the caller's.
+template <class Options, std::size_t width>
+class GivenOptions : public Options {
 public:
-    /// Sets the samples that are given, which stay the caller's. All have the radius of the set, or
-    /// of each class, as their clearance.
-    void set_given(const PlanePoints &positions) { detail::set_given(*this, positions, {}, false); }
-
-    /// The same with clearances of their own, one for each: the call refuses another number.
-    void set_given(const PlanePoints &positions, Span<const double> clearances) {
-        detail::set_given(*this, positions, clearances, true);
+    /// Sets samples that have the radius of the set, or of each class, as their clearance.
+    Status try_set_given(const Borrowed<Tuples<float, width>> &positions) {
+        return detail::try_set_given(*this, positions, nullptr, 1);
     }
 
-    /// The same for sets of several classes: each has a row of clearances, one for each class.
-    void set_given(const PlanePoints &positions, Span<const double> clearances,
-                   std::uint32_t classes) {
-        detail::set_given(*this, positions, clearances, true, classes);
+    /// Sets samples with clearances: one for each or, for a set of several classes, a row of one
+    /// for each class.
+    Status try_set_given(const Borrowed<Tuples<float, width>> &positions,
+                         const Borrowed<Span<const double>> &clearances,
+                         std::uint32_t classes = 1) {
+        Status status = detail::try_set_given(*this, positions, &clearances, classes);
+        if (status.ok()) classes_ = classes;
+        return status;
     }
+
+    /// Refuses clearances that were set for another number of classes.
+    Status check_given(std::uint32_t classes) const {
+        if (this->given_clearances == nullptr || classes_ == 0 || classes_ == classes) {
+            return Status();
+        }
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                      "given_clearances: there are " + std::to_string(classes_) +
+                          " for each sample, and " + std::to_string(classes) + " classes");
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    void set_given(const Borrowed<Tuples<float, width>> &positions) {
+        check(try_set_given(positions));
+    }
+
+    void set_given(const Borrowed<Tuples<float, width>> &positions,
+                   const Borrowed<Span<const double>> &clearances, std::uint32_t classes = 1) {
+        check(try_set_given(positions, clearances, classes));
+    }
+#endif
+
+private:
+    /// Clearances of each sample; 0 if they were not set here, but as fields of the C struct.
+    std::uint32_t classes_ = 0;
 };
+
+/// See azulejo_kdrt_options; `radius` or `count` is to be set.
+using KdrtOptions =
+    GivenOptions<PlaneOptions<azulejo_kdrt_options, azulejo_kdrt_options_init>, 2>;
 /// See azulejo_kdrt_merge_options; `radius` has no default.
 using KdrtMergeOptions = PlaneOptions<azulejo_kdrt_merge_options, azulejo_kdrt_merge_options_init>;
 /// See azulejo_maximal_options; `radius` has no default.
 using MaximalOptions = PlaneOptions<azulejo_maximal_options, azulejo_maximal_options_init>;
 /// See azulejo_psp_options; `radius` or `count` is to be set.
-class PspOptions : public Options<azulejo_psp_options, azulejo_psp_options_init> {
-public:
-    /// Sets the samples that are given, which stay the caller's. All have the radius of the set as
-    /// their clearance.
-    void set_given(const SpacePoints &positions) { detail::set_given(*this, positions, {}, false); }
-
-    /// The same with clearances of their own, one for each: the call refuses another number.
-    void set_given(const SpacePoints &positions, Span<const double> clearances) {
-        detail::set_given(*this, positions, clearances, true);
-    }
-
-    /// The same for psp_sample_classes: each has a row of clearances, one for each class.
-    void set_given(const SpacePoints &positions, Span<const double> clearances,
-                   std::uint32_t classes) {
-        detail::set_given(*this, positions, clearances, true, classes);
-    }
-};
+using PspOptions = GivenOptions<Options<azulejo_psp_options, azulejo_psp_options_init>, 3>;
 /// See azulejo_dcr_options.
 using DcrOptions = PlaneOptions<azulejo_dcr_options, azulejo_dcr_options_init>;
 /// See azulejo_dcr_surface_options.
@@ -749,16 +805,23 @@ class PspAdaptiveOptions
     : public Options<azulejo_psp_adaptive_options, azulejo_psp_adaptive_options_init> {
 public:
     /// Sets `vertex_radii` and `vertex_count`; the radii stay the caller's.
-    void set_vertex_radii(Span<const float> radii) noexcept {
+    void set_vertex_radii(const Borrowed<Span<const float>> &radii) noexcept {
         vertex_radii = radii.data();
         vertex_count = radii.size();
     }
 
-    /// Sets the samples that are given and the clearance of each, which stay the caller's: the call
-    /// refuses another number of clearances.
-    void set_given(const SpacePoints &positions, Span<const double> clearances) {
-        detail::set_given(*this, positions, clearances, true);
+    /// Sets the samples that are given, which stay the caller's, with one clearance each.
+    Status try_set_given(const Borrowed<SpacePoints> &positions,
+                         const Borrowed<Span<const double>> &clearances) {
+        return detail::try_set_given(*this, positions, &clearances, 1);
     }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    void set_given(const Borrowed<SpacePoints> &positions,
+                   const Borrowed<Span<const double>> &clearances) {
+        check(try_set_given(positions, clearances));
+    }
+#endif
 
     /// Sets `radius_function` and its user pointer; an empty function unsets them. Copies share it
     /// as set_progress says.
@@ -782,7 +845,7 @@ private:
 /// The density of points; see azulejo_density. Either an image of `width` pixels a row, which
 /// stays the caller's, or a function.
 struct Density {
-    Span<const float> values{};
+    Borrowed<Span<const float>> values{};
     std::size_t width = 0;
     DensityFunction function{};
 };
@@ -790,14 +853,14 @@ struct Density {
 /// The density of samples of a mesh; see azulejo_mesh_density. One of `vertex_values`,
 /// `function` and `image` is to be set, and one of `radius` and `count`. Arrays stay the caller's.
 struct MeshDensity {
-    Span<const float> vertex_values{};
+    Borrowed<Span<const float>> vertex_values{};
     RadiusFunction function{};
     bool at_vertices = false;
     double largest = 0;
     double slope = 0;
-    Span<const float> image{};
+    Borrowed<Span<const float>> image{};
     std::size_t width = 0;
-    PlanePoints texture{};
+    Borrowed<PlanePoints> texture{};
     bool by_corners = false;
     double radius = 0;
     double count = 0;
@@ -810,7 +873,7 @@ struct Classes {
     /// count * count radii, row by row.
     std::vector<double> radii{};
     /// Where each class may stand on a mesh; empty for everywhere. They stay the caller's.
-    Span<const std::uint32_t> masks{};
+    Borrowed<Span<const std::uint32_t>> masks{};
 
     /// The smallest distance between samples of two classes.
     double radius(std::uint32_t i, std::uint32_t j) const {
@@ -834,9 +897,10 @@ inline Status try_classes_radii(Span<const double> own, double factor, Classes &
 
 namespace detail {
 
-/// Calls with the C struct of classes.
-template <class Call>
-Status with_classes(const Classes &classes, Call call) {
+/// Calls with the C struct of classes; refuses options whose clearances are for another number.
+template <class Options, class Call>
+Status with_classes(const Options &options, const Classes &classes, Call call) {
+    if (Status s = options.check_given(classes.count); !s.ok()) return s;
     azulejo_classes wanted = {};
     if (Status s{azulejo_classes_init(&wanted, sizeof wanted)}; !s.ok()) return s;
     if (classes.radii.size() != std::size_t{classes.count} * classes.count) {
@@ -947,7 +1011,7 @@ public:
     /// A plane of several classes; see azulejo_kdrt_create_classes.
     static Status try_create(const Context &context, const KdrtOptions &options,
                              const Classes &classes, Kdrt &out) {
-        return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
+        return detail::with_classes(options, classes, [&](const azulejo_classes &wanted) {
             return detail::make(out, [&](auto **plane) {
                 return azulejo_kdrt_create_classes(context.get(), &options, &wanted, plane);
             });
@@ -1108,13 +1172,15 @@ public:
     /// See azulejo_mesh_triangle_count.
     std::size_t triangle_count() const noexcept { return azulejo_mesh_triangle_count(get()); }
     /// x y z of each vertex; see azulejo_mesh_positions.
-    Positions positions() const noexcept {
+    Positions positions() const & noexcept {
         return {azulejo_mesh_positions(get()), vertex_count(), 3};
     }
+    Positions positions() const && = delete;
     /// Three vertices for each triangle; see azulejo_mesh_indices.
-    Span<const std::uint32_t> indices() const noexcept {
+    Span<const std::uint32_t> indices() const & noexcept {
         return {azulejo_mesh_indices(get()), 3 * triangle_count()};
     }
+    Span<const std::uint32_t> indices() const && = delete;
     /// The area of all triangles that no mask leaves out; see azulejo_mesh_area.
     double area() const noexcept { return azulejo_mesh_area(get()); }
 };
@@ -1309,7 +1375,7 @@ inline Status try_kdrt_sample(const Context &context, const KdrtOptions &options
 inline Status try_kdrt_sample_classes(const Context &context, const KdrtOptions &options,
                                       const Classes &classes, Points &out,
                                       ClassesReport *report = nullptr) {
-    return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
+    return detail::with_classes(options, classes, [&](const azulejo_classes &wanted) {
         return detail::make(out, [&](auto **points) {
             return azulejo_kdrt_sample_classes(context.get(), &options, &wanted, points, report);
         });
@@ -1343,7 +1409,7 @@ inline Status try_kdrt_stream(const Context &context, const KdrtOptions &options
 /// A set of samples with its rectangle, such as {points, {0, 0}, {1, 1}}; see
 /// azulejo_kdrt_merge_piece. The samples stay the caller's.
 struct KdrtMergePiece {
-    PlanePoints positions;
+    Borrowed<PlanePoints> positions;
     Pair min;
     Pair max;
 };
@@ -1374,14 +1440,16 @@ public:
     /// The number of points; see azulejo_selection_count.
     std::size_t size() const noexcept { return azulejo_selection_count(get()); }
     /// Their indices in the cloud; see azulejo_selection_indices.
-    Span<const std::uint32_t> indices() const noexcept {
+    Span<const std::uint32_t> indices() const & noexcept {
         return {azulejo_selection_indices(get()), size()};
     }
+    Span<const std::uint32_t> indices() const && = delete;
     /// The ranks of a progressive selection, empty in any order; see azulejo_selection_ranks.
-    Span<const float> ranks() const noexcept {
+    Span<const float> ranks() const & noexcept {
         const float *ranks = azulejo_selection_ranks(get());
         return {ranks, ranks ? size() : 0};
     }
+    Span<const float> ranks() const && = delete;
 };
 
 /// Selects points of a cloud of the plane; see azulejo_thin.
@@ -1426,7 +1494,7 @@ inline Status try_psp_sample(const Context &context, const Mesh &mesh, const Psp
 inline Status try_psp_sample_classes(const Context &context, const Mesh &mesh,
                                      const PspOptions &options, const Classes &classes,
                                      Points &out, ClassesReport *report = nullptr) {
-    return detail::with_classes(classes, [&](const azulejo_classes &wanted) {
+    return detail::with_classes(options, classes, [&](const azulejo_classes &wanted) {
         return detail::make(out, [&](auto **points) {
             return azulejo_psp_sample_classes(context.get(), mesh.get(), &options, &wanted, points,
                                               report);
@@ -1817,9 +1885,10 @@ public:
     /// The frequencies per side; see azulejo_spectrum_size.
     std::uint32_t size() const noexcept { return azulejo_spectrum_size(get()); }
     /// size() * size() numbers, row by row; see azulejo_spectrum_power.
-    Span<const float> power() const noexcept {
+    Span<const float> power() const & noexcept {
         return {azulejo_spectrum_power(get()), std::size_t(size()) * size()};
     }
+    Span<const float> power() const && = delete;
 };
 
 /// The differences of samples on a mesh, or of several sets; see azulejo_differences.
@@ -1883,16 +1952,18 @@ public:
 #endif
 
     /// See azulejo_differences_density.
-    Span<const double> density() const noexcept {
+    Span<const double> density() const & noexcept {
         const double *data = azulejo_differences_density(get());
         constexpr std::size_t size = AZULEJO_DIFFERENCES_SIZE;
         return {data, data ? size * size : 0};
     }
+    Span<const double> density() const && = delete;
     /// See azulejo_differences_radial.
-    Span<const double> radial() const noexcept {
+    Span<const double> radial() const & noexcept {
         const double *data = azulejo_differences_radial(get());
         return {data, data ? std::size_t(AZULEJO_DIFFERENCES_SHELLS) : 0};
     }
+    Span<const double> radial() const && = delete;
 };
 
 // ---- The throwing forms: each does what its try_ function says ---------------------------------

@@ -115,6 +115,36 @@ struct Vec2 {
     float x, y;
 };
 
+// What options and structs keep is made of arrays with a name and of views, not of temporaries with elements.
+using KeptPoints = azulejo::Borrowed<azulejo::PlanePoints>;
+using KeptNumbers = azulejo::Borrowed<azulejo::Span<const double>>;
+template <class Kept, class Owner>
+constexpr bool needs_name = std::is_convertible_v<Owner &, Kept> && std::is_convertible_v<const Owner &, Kept> &&
+                            !std::is_convertible_v<Owner, Kept> && !std::is_convertible_v<const Owner, Kept>;
+static_assert(needs_name<KeptPoints, azulejo::Points> && needs_name<KeptPoints, std::vector<Vec2>>);
+static_assert(needs_name<KeptPoints, std::vector<float>> && needs_name<KeptPoints, std::array<float, 4>>);
+static_assert(needs_name<KeptNumbers, std::vector<double>> && needs_name<KeptNumbers, std::array<double, 2>>);
+static_assert(std::is_convertible_v<azulejo::Positions, KeptPoints> && std::is_convertible_v<float (&)[4], KeptPoints>);
+static_assert(std::is_convertible_v<azulejo::PlanePoints, KeptPoints>);
+static_assert(std::is_convertible_v<azulejo::Span<const double>, KeptNumbers>);
+static_assert(std::is_convertible_v<azulejo::Span<double>, KeptNumbers>);
+
+// Options with arrays that the call must be able to name, and the accessors of temporaries.
+template <class Options, class Array, class = void>
+constexpr bool takes = false;
+template <class Options, class Array>
+constexpr bool takes<Options, Array, std::void_t<decltype(std::declval<Options &>().set_given(std::declval<Array>()))>> =
+    true;
+static_assert(takes<azulejo::KdrtOptions, azulejo::Points &> && !takes<azulejo::KdrtOptions, azulejo::Points>);
+static_assert(takes<azulejo::PspOptions, std::vector<float> &> && !takes<azulejo::PspOptions, std::vector<float>>);
+
+template <class Owner, class = void>
+constexpr bool shows_positions = false;
+template <class Owner>
+constexpr bool shows_positions<Owner, std::void_t<decltype(std::declval<Owner>().positions())>> = true;
+static_assert(shows_positions<azulejo::Points &> && shows_positions<const azulejo::Points &>);
+static_assert(!shows_positions<azulejo::Points> && !shows_positions<azulejo::Mesh>);
+
 // As glm's, which has both.
 struct Both2 {
     double x, y;
@@ -196,7 +226,8 @@ void dimensions() {
     CHECK(refused("positions: the set has 2", [&] { azulejo::Differences(context, mesh, flat, flat, {0, 0, 1}); }));
     CHECK(refused("positions: the set has 2", [&] { azulejo::Mesh(flat, triangles); }));
     CHECK(refused("samples: the set has 2", [&] { azulejo::dcr_surface_relax(context, mesh, {}, flat); }));
-    CHECK(refused("positions: the set has 0", [&] { azulejo::plane_measure(context, {azulejo::Points()}); }));
+    const azulejo::Points none;
+    CHECK(refused("positions: the set has 0", [&] { azulejo::plane_measure(context, {none}); }));
 
     const std::vector<Vec2> pairs = {{0, 0}, {0.5f, 0}, {0, 0.25f}};
     CHECK(azulejo::plane_smallest_distance(context, {pairs}) == 0.25);

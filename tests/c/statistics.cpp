@@ -35,7 +35,8 @@ void planes() {
     CHECK(histogram[14] == 0 && histogram[15] > histogram[25]);
     const auto density = azulejo::plane_radial_distribution(context, set, 4, 80);
     CHECK(density.size() == 80 && density[14] == 0 && density[16] > 1.5 && std::abs(density[79] - 1) < 0.1);
-    CHECK(refused("positions: 7", [&] { azulejo::plane_measure(context, {std::vector<float>(7)}); }));
+    const std::vector<float> odd(7);
+    CHECK(refused("positions: 7", [&] { azulejo::plane_measure(context, {odd}); }));
     std::vector<double> told;
     const auto tell = [&](double done) { return told.push_back(done), true; };
     const auto watched = azulejo::plane_measure(context.watch(tell), set);

@@ -158,8 +158,10 @@ void several_classes() {
     of_classes.set_given(one, clearances, 2);
     const auto second = azulejo::psp_sample_classes(context, mesh, of_classes, classes);
     CHECK(second.size() > 0 && second.classes()[0] == 1);
-    of_classes.set_given(one, clearances, 3);
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given",
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 2, and 3 are needed",
+                 [&] { of_classes.set_given(one, clearances, 3); }));
+    of_classes.set_given(one, {clearances.data(), 1});
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 1 for each sample, and 2 classes",
                  [&] { azulejo::psp_sample_classes(context, mesh, of_classes, classes); }));
     classes.radii.pop_back();
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radii: 3 for 2",
@@ -242,10 +244,11 @@ void counts() {
     const std::vector<double> clearances(777, 0.0);
     options.set_given(ordered.positions(), clearances);
     CHECK(azulejo::kdrt_sample(context, options).size() > 700);
-    options.set_given(ordered.positions(), {clearances.data(), 776});
-    CHECK(refused("given_positions", [&] { azulejo::kdrt_sample(context, options); }));
-    options.set_given(std::vector<float>{0.1F, 0.1F, 0.5F, 0.5F, 0.9F}); // half a point too many
-    CHECK(refused("given_positions", [&] { azulejo::kdrt_sample(context, options); }));
+    CHECK(refused("given_clearances: there are 776, and 777 are needed",
+                  [&] { options.set_given(ordered.positions(), {clearances.data(), 776}); }));
+    const std::vector<float> odd = {0.1F, 0.1F, 0.5F, 0.5F, 0.9F};
+    CHECK(refused("given_positions: 5 numbers are not a multiple of 2", [&] { options.set_given(odd); }));
+    CHECK(options.given_count == 777 && options.given_clearances == clearances.data());
     options.set_given({});
     options.count = 777;
     options.radius = 0.1;
@@ -407,7 +410,8 @@ void adaptive() {
     CHECK(ordered.ranks().size() == ordered.size() && ordered.radii().size() == ordered.size());
     CHECK(ordered.ranks()[ordered.size() - 1] >= 1);
     options.order = AZULEJO_ORDER_ANY;
-    CHECK(azulejo::Points(nullptr).radii().empty());
+    const azulejo::Points no_points(nullptr);
+    CHECK(no_points.radii().empty());
 
     options.set_vertex_radii({});
     options.smallest = 0.05;
@@ -454,10 +458,12 @@ void given() {
         const auto xyz = around.positions();
         CHECK(std::hypot(xyz[3 * i] - 0.2, xyz[3 * i + 1] - 0.2, double{xyz[3 * i + 2]}) > 0.349);
     }
-    options.set_given(centre, std::vector<double>(2));
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions", [&] { azulejo::psp_sample(context, mesh, options); }));
-    options.set_given(azulejo::Points());
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions", [&] { azulejo::psp_sample(context, mesh, options); }));
+    const std::vector<double> two(2);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 2, and 1 are needed",
+                 [&] { options.set_given(centre, two); }));
+    const azulejo::Points none;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions: the set has 0 coordinates",
+                 [&] { options.set_given(none); }));
 
     azulejo::PspAdaptiveOptions varying;
     const std::vector<float> radii(mesh.vertex_count(), 0.1f);
@@ -484,9 +490,13 @@ void classes_of_planes() {
     const std::vector<double> clearances = {0.3, 0.1};
     options.set_given(given, clearances, 2);
     CHECK(azulejo::kdrt_sample_classes(context, options, two).size() < points.size());
-    options.set_given(given, clearances);
-    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_positions",
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 2, and 1 are needed",
+                 [&] { options.set_given(given, clearances); }));
+    options.set_given(given, {clearances.data(), 1});
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 1 for each sample, and 2 classes",
                  [&] { azulejo::kdrt_sample_classes(context, options, two); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 1 for each sample, and 2 classes",
+                 [&] { azulejo::Kdrt(context, options, two); }));
     azulejo::Classes torn = two;
     torn.radii.pop_back();
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radii: 3 for 2",
