@@ -13,16 +13,18 @@
 //   both of its forms; a call of azulejo.h that has the callback fails instead. Where there are no
 //   exceptions, a callback that throws ends the process.
 //
-// Sections: status, arrays, owners, points, places and domains, options, reports, context, kept
-//   planes, mesh, psp, samplers, relaxation, analysis, the throwing forms.
+// Sections: status, arrays, owners, points, places and domains, instances, options, reports,
+//   context, kept planes, mesh, psp, samplers, relaxation, analysis, the throwing forms.
 
 #ifndef AZULEJO_HPP
 #define AZULEJO_HPP
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -167,7 +169,8 @@ template <class C, class = void>
 inline constexpr bool is_view = false;
 template <class C>
 inline constexpr bool is_view<C, std::void_t<decltype(std::declval<C &>().data())>> =
-    std::is_same_v<decltype(std::declval<C &>().data()), decltype(std::declval<const C &>().data())>;
+    std::is_same_v<decltype(std::declval<C &>().data()),
+                   decltype(std::declval<const C &>().data())>;
 
 } // namespace detail
 
@@ -515,6 +518,53 @@ struct PlaneSet {
     Borrowed<PlanePoints> positions;
     Domain domain{};
 };
+
+// ---- Instances ---------------------------------------------------------------------------------
+
+/// Three directions of unit length, at right angles, of which the third is tangent x bitangent.
+struct Frame {
+    std::array<float, 3> tangent;
+    std::array<float, 3> bitangent;
+    std::array<float, 3> normal;
+};
+
+/// A frame for an instance that stands along a normal, such as `&points.normals()[3 * i]`, of any
+/// length but 0. It varies with the normal everywhere but from z = 0 to below. Made as by
+/// T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+inline Frame frame(const Triple &direction) noexcept {
+    const double *n = direction.data();
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double x = n[0] / length, y = n[1] / length, z = n[2] / length;
+    const double sign = std::copysign(1.0, z), a = -1 / (sign + z), b = x * y * a;
+    const auto floats = [](double u, double v, double w) {
+        return std::array<float, 3>{static_cast<float>(u), static_cast<float>(v),
+                                    static_cast<float>(w)};
+    };
+    return {floats(1 + sign * x * x * a, sign * b, -sign * x), floats(b, sign + y * y * a, -y),
+            floats(x, y, z)};
+}
+
+/// A number of [0, 1) for sample `index`, such as the turn, size or kind of an instance. It depends
+/// on the seed and on the sample's position alone: it is the same in every window, and stays when
+/// other samples are erased. Seeds give independent numbers.
+inline float random_number(const Positions &positions, std::size_t index,
+                           std::uint64_t seed) noexcept {
+    // SplitMix64: G. L. Steele et al., Fast Splittable Pseudorandom Number Generators, OOPSLA 2014.
+    std::uint64_t state = seed;
+    const auto mix = [&state](std::uint64_t value) {
+        state = (state ^ value) + 0x9e3779b97f4a7c15;
+        state = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9;
+        state = (state ^ (state >> 27)) * 0x94d049bb133111eb;
+        state ^= state >> 31;
+    };
+    for (std::size_t axis = 0; axis < positions.dimension(); axis++) {
+        const float coordinate = positions[index * positions.dimension() + axis] + 0.0f; // not -0
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &coordinate, sizeof bits);
+        mix(bits);
+    }
+    return static_cast<float>(state >> 40) * 0x1p-24f;
+}
 
 // ---- Callbacks ---------------------------------------------------------------------------------
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "check.h"
@@ -440,6 +442,63 @@ void adaptive() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::psp_adaptive_sample(context, mesh, options); }));
 }
 
+// Frames are orthonormal and right-handed for every direction.
+void frames() {
+    const auto dot = [](const auto &a, const auto &b) {
+        return double{a[0]} * b[0] + double{a[1]} * b[1] + double{a[2]} * b[2];
+    };
+    for (int x = -3; x <= 3; x++) {
+        for (int y = -3; y <= 3; y++) {
+            for (int z = -3; z <= 3; z++) {
+                if (x == 0 && y == 0 && z == 0) continue;
+                const auto [t, b, n] = azulejo::frame({x, y, z});
+                CHECK(std::abs(dot(t, t) - 1) < 1e-6 && std::abs(dot(b, b) - 1) < 1e-6);
+                CHECK(std::abs(dot(t, b)) < 1e-6 && std::abs(dot(t, n)) < 1e-6 && std::abs(dot(b, n)) < 1e-6);
+                const std::array<float, 3> up = {t[1] * b[2] - t[2] * b[1], t[2] * b[0] - t[0] * b[2],
+                                                 t[0] * b[1] - t[1] * b[0]};
+                CHECK(std::abs(dot(up, n) - 1) < 1e-6);
+                CHECK(std::abs(dot(n, std::array{x, y, z}) - std::hypot(x, y, z)) < 1e-6);
+            }
+        }
+    }
+    const auto below = azulejo::frame(std::array<float, 3>{0, 0, -1});
+    CHECK(below.normal[2] == -1 && below.tangent[0] == 1);
+}
+
+// Random numbers are evenly distributed, independent for different seeds, and the same in windows.
+void random_numbers() {
+    const azulejo::Context context(1);
+    azulejo::KdrtOptions options;
+    options.radius = 0.005;
+    const auto whole = azulejo::kdrt_sample(context, options);
+    const auto window = azulejo::kdrt_sample_window(context, options, {0.2, 0.3}, {0.4, 0.6});
+    double mean = 0, both = 0;
+    std::array<std::size_t, 16> bins{};
+    std::map<std::pair<float, float>, float> of_place;
+    for (std::size_t i = 0; i < whole.size(); i++) {
+        const float first = azulejo::random_number(whole.positions(), i, 1);
+        const float second = azulejo::random_number(whole.positions(), i, 2);
+        CHECK(first >= 0 && first < 1 && second >= 0 && second < 1);
+        mean += first;
+        both += (first - 0.5) * (second - 0.5);
+        bins[static_cast<std::size_t>(16 * first)]++;
+        of_place[{whole.positions()[2 * i], whole.positions()[2 * i + 1]}] = first;
+    }
+    const double count = static_cast<double>(whole.size());
+    // Five standard deviations.
+    CHECK(count > 20'000 && std::abs(mean / count - 0.5) < 5 * 0.289 / std::sqrt(count));
+    CHECK(std::abs(both / count) < 5 / 12.0 / std::sqrt(count));
+    for (std::size_t bin : bins) CHECK(std::abs(bin - count / 16) < 5 * std::sqrt(count / 16));
+    CHECK(window.size() > 1000);
+    for (std::size_t i = 0; i < window.size(); i++) {
+        const std::pair place(window.positions()[2 * i], window.positions()[2 * i + 1]);
+        CHECK(of_place.at(place) == azulejo::random_number(window.positions(), i, 1));
+    }
+    const float zeros[] = {0.0f, -0.0f};
+    CHECK(azulejo::random_number({zeros, 2, 1}, 0, 7) == azulejo::random_number({zeros, 2, 1}, 1, 7));
+    CHECK(azulejo::random_number({zeros, 1, 2}, 0, 7) != azulejo::random_number({zeros, 1, 2}, 0, 8));
+}
+
 // Samples that are given: as a set of the library's, as numbers and as arrays.
 void given() {
     const azulejo::Context context(2);
@@ -519,6 +578,8 @@ int main() {
     merging();
     thinning();
     adaptive();
+    frames();
+    random_numbers();
     given();
     classes_of_planes();
     return finish();
