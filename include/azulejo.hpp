@@ -529,8 +529,8 @@ struct Frame {
 };
 
 /// A frame for an instance that stands along a normal, such as `&points.normals()[3 * i]`, of any
-/// length but 0. It varies with the normal everywhere but from z = 0 to below. Made as by
-/// T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+/// length but 0. It is continuous in the normal, except where z changes its sign. As by T. Duff et
+/// al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
 inline Frame frame(const Triple &direction) noexcept {
     const double *n = direction.data();
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -775,6 +775,7 @@ template <class C, std::size_t width>
 Status try_set_given(C &options, const Tuples<float, width> &positions,
                      const Span<const double> *clearances, std::size_t classes) {
     if (Status s = positions.check("given_positions"); !s.ok()) return s;
+    if (classes == 0) return Status(AZULEJO_ERROR_INVALID_ARGUMENT, "classes: 0 is not at least 1");
     const std::size_t count = positions.size() * classes;
     if (clearances != nullptr && clearances->size() != count) {
         return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
@@ -795,7 +796,9 @@ class GivenOptions : public Options {
 public:
     /// Sets samples that have the radius of the set, or of each class, as their clearance.
     Status try_set_given(const Borrowed<Tuples<float, width>> &positions) {
-        return detail::try_set_given(*this, positions, nullptr, 1);
+        Status status = detail::try_set_given(*this, positions, nullptr, 1);
+        if (status.ok()) classes_ = 0;
+        return status;
     }
 
     /// Sets samples with clearances: one for each or, for a set of several classes, a row of one

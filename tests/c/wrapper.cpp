@@ -162,6 +162,8 @@ void several_classes() {
     CHECK(second.size() > 0 && second.classes()[0] == 1);
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 2, and 3 are needed",
                  [&] { of_classes.set_given(one, clearances, 3); }));
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "classes: 0",
+                 [&] { of_classes.set_given(one, {clearances.data(), 0}, 0); }));
     of_classes.set_given(one, {clearances.data(), 1});
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 1 for each sample, and 2 classes",
                  [&] { azulejo::psp_sample_classes(context, mesh, of_classes, classes); }));
