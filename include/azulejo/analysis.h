@@ -1,6 +1,5 @@
 /*
  * Analysis: distances, coverage and spectra of sets.
- *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -16,10 +15,8 @@ extern "C" {
 /// The coverage of a domain or a surface by disks of a radius: the result of
 /// azulejo_plane_coverage and azulejo_mesh_coverage.
 typedef struct azulejo_coverage_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
     /// The covering radius, in the units of the domain or mesh; infinite for no sample.
     double covering_radius;
     /// The number of gaps: 0 if the set is maximal for the radius, up to the rounding of floats.
@@ -28,42 +25,31 @@ typedef struct azulejo_coverage_report {
 
 /// The smallest distance between two points of the plane, in double arithmetic; on a periodic
 /// domain around the torus.
-///
-/// set: the points.
-///
-/// out: the distance in the units of the domain; infinite for fewer than two points.
-///
-/// O(count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - set: the points.
+/// - out: the distance in the units of the domain; infinite for fewer than two points.
+/// - O(count) time for evenly spread points.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_plane_smallest_distance(const azulejo_context *context,
                                                const azulejo_plane_set *set,
                                                double *out);
 
 /// The covering radius of points of the plane; on a periodic domain around the torus. The set is
 /// maximal for every radius that is not smaller.
-///
-/// set: the points.
-///
-/// out: the covering radius in the units of the domain, too small by less than a billionth of it;
-/// infinite for no point.
+/// - set: the points.
+/// - out: the covering radius in the units of the domain, too small by less than a billionth of it;
+///   infinite for no point.
 ///
 /// Found exactly, by subdivision of the domain: O(count * log count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_plane_covering_radius(const azulejo_context *context,
                                              const azulejo_plane_set *set,
                                              double *out);
 
 /// The smallest straight distance between two points in space, in double arithmetic.
-///
-/// positions: the points, x y z each, finite; `count` of them.
-///
-/// out: the distance in the units of the positions; infinite for fewer than two points.
-///
-/// O(count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - positions: the points, x y z each, finite; `count` of them.
+/// - out: the distance in the units of the positions; infinite for fewer than two points.
+/// - O(count) time for evenly spread points.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_space_smallest_distance(const azulejo_context *context,
                                                const float *positions,
                                                size_t count,
@@ -71,23 +57,16 @@ azulejo_status azulejo_space_smallest_distance(const azulejo_context *context,
 
 /// The fraction of a surface that is farther than a radius from every sample, estimated by random
 /// probes.
-///
-/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
-///
-/// radius: above 0, in the units of the mesh.
-///
-/// probes: the number of random places of the surface that are examined, at least 1, uniform over
-/// its area.
-///
-/// seed: selects the places.
-///
-/// out: the fraction of the probes that are uncovered, 0 to 1; 0 if the mask of the mesh leaves out
-/// everything.
-///
-/// O(probes + count) time for evenly spread samples. Probes do not prove coverage,
-/// azulejo_mesh_coverage does.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
+/// - radius: above 0, in the units of the mesh.
+/// - probes: the number of random places of the surface that are examined, at least 1, uniform over
+///   its area.
+/// - seed: selects the places.
+/// - out: the fraction of the probes that are uncovered, 0 to 1; 0 if the mask of the mesh leaves
+///   out everything.
+/// - O(probes + count) time for evenly spread samples. Probes do not prove coverage,
+///   azulejo_mesh_coverage does.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_mesh_uncovered_fraction(const azulejo_context *context,
                                                const azulejo_mesh *mesh,
                                                const float *positions,
@@ -98,8 +77,7 @@ azulejo_status azulejo_mesh_uncovered_fraction(const azulejo_context *context,
                                                double *out);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_coverage_report_init(azulejo_coverage_report *report,
                                             size_t struct_size);
 
@@ -107,18 +85,14 @@ azulejo_status azulejo_coverage_report_init(azulejo_coverage_report *report,
 /// torus, that are farther than a radius from all points, by more than 6 times the spacing of
 /// floats at the largest coordinate of the domain. With no gap the set is maximal for the radius,
 /// as "Terms" has it, and all maximal sets of this library have none.
-///
-/// set: the points.
-///
-/// radius: above 0, in the units of the domain.
-///
-/// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps.
-/// Every gap deeper than a millionth of the mean spacing is found, however small, and the deepest
-/// in any case. An empty set has one gap.
+/// - set: the points.
+/// - radius: above 0, in the units of the domain.
+/// - out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps.
+///   Every gap deeper than a millionth of the mean spacing is found, however small, and the deepest
+///   in any case. An empty set has one gap.
 ///
 /// Found exactly, by the Voronoi diagram: O(count * log count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_plane_coverage(const azulejo_context *context,
                                       const azulejo_plane_set *set,
                                       double radius,
@@ -129,21 +103,17 @@ azulejo_status azulejo_plane_coverage(const azulejo_context *context,
 /// largest coordinate of the mesh, each within half of the radius of another place of its group.
 /// With no gap the set is maximal for the radius, as "Terms" has it, and all maximal sets of this
 /// library have none.
-///
-/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
-///
-/// radius: above 0, in the units of the mesh.
-///
-/// out: the covering radius, too small by less than a billionth of it, and the number of gaps.
-/// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
-/// case. An empty set has an infinite radius and at least one gap; a mesh without area, or whose
-/// mask leaves out everything, has 0 and 0.
+/// - positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
+/// - radius: above 0, in the units of the mesh.
+/// - out: the covering radius, too small by less than a billionth of it, and the number of gaps.
+///   Every gap deeper than a millionth of the radius is found, however small, and the deepest in
+///   any case. An empty set has an infinite radius and at least one gap; a mesh without area, or
+///   whose mask leaves out everything, has 0 and 0.
 ///
 /// Found exactly, by subdivision of the triangles: O((count + triangles) * log count) time for
 /// evenly spread samples, and about 100 pieces per radius^2 of uncovered area.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE, also if more than about 600,000
-/// * radius^2 of the area is uncovered; AZULEJO_ERROR_CANCELLED.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE, also if more than about
+///   600,000 * radius^2 of the area is uncovered; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_mesh_coverage(const azulejo_context *context,
                                      const azulejo_mesh *mesh,
                                      const float *positions,
@@ -153,20 +123,16 @@ azulejo_status azulejo_mesh_coverage(const azulejo_context *context,
 
 /// The result of azulejo_plane_measure.
 typedef struct azulejo_plane_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
-    /// The number of points.
-    uint64_t count;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t count; ///< The number of points.
     /// The smallest distance between two points, in the units of the domain; infinite for fewer
     /// than two.
     double smallest_distance;
     /// The mean distance from a point to its nearest neighbour, in the units of the domain;
     /// infinite for fewer than two points.
     double mean_distance;
-    /// d_max, in the units of the domain; infinite for no point.
-    double hexagonal_distance;
+    double hexagonal_distance; ///< d_max, in the units of the domain; infinite for no point.
     /// The smallest distance in units of d_max: about 0.77 for maximal Poisson-disk sets, at most 1
     /// on a periodic domain.
     double rho;
@@ -180,16 +146,11 @@ typedef struct azulejo_plane_report {
     /// The number of Delaunay triangles; in a bounded domain those that do not cross its edges when
     /// the set is mirrored at them.
     uint64_t triangles;
-    /// The fraction of triangles with an angle above 90 degrees, 0 to 1.
-    double obtuse;
-    /// The fraction of triangles with an angle below 30 degrees, 0 to 1.
-    double below_30_degrees;
-    /// The mean length of the triangles' edges, in the units of the domain.
-    double edge_mean;
-    /// The variance of the lengths of the edges over their squared mean.
-    double edge_variation;
-    /// The variance of the areas of the triangles over their squared mean.
-    double area_variation;
+    double obtuse; ///< The fraction of triangles with an angle above 90 degrees, 0 to 1.
+    double below_30_degrees; ///< The fraction of triangles with an angle below 30 degrees, 0 to 1.
+    double edge_mean; ///< The mean length of the triangles' edges, in the units of the domain.
+    double edge_variation; ///< The variance of the lengths of the edges over their squared mean.
+    double area_variation; ///< The variance of the areas of the triangles over their squared mean.
     /// The fraction of the angles of all triangles that are below 30 degrees, 0 to 1.
     double angles_below_30_degrees;
     /// The fraction of triangles whose area is farther than 4 standard deviations from the mean, 0
@@ -198,38 +159,27 @@ typedef struct azulejo_plane_report {
 } azulejo_plane_report;
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_plane_report_init(azulejo_plane_report *report, size_t struct_size);
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
-///
-/// set: the points.
-///
-/// out: the report.
-///
-/// O(count * log count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - set: the points.
+/// - out: the report.
+/// - O(count * log count) time for evenly spread points.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_plane_measure(const azulejo_context *context,
                                      const azulejo_plane_set *set,
                                      azulejo_plane_report *out);
 
 /// The histogram of the distances from points of the plane to their nearest neighbours.
-///
-/// set: the points.
-///
-/// reach: where the last bin ends, above 0, in units of d_max.
-///
-/// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
-///
-/// out: an array of `bins` numbers: how many points have their nearest neighbour at such a
-/// distance. Distances of `reach` and more, and a single point, are in no bin. Histograms of
-/// several sets may be added.
-///
-/// O(count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - set: the points.
+/// - reach: where the last bin ends, above 0, in units of d_max.
+/// - bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
+/// - out: an array of `bins` numbers: how many points have their nearest neighbour at such a
+///   distance. Distances of `reach` and more, and a single point, are in no bin. Histograms of
+///   several sets may be added.
+/// - O(count) time for evenly spread points.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_plane_nearest_histogram(const azulejo_context *context,
                                                const azulejo_plane_set *set,
                                                double reach,
@@ -243,20 +193,14 @@ azulejo_status azulejo_plane_nearest_histogram(const azulejo_context *context,
 /// In a bounded domain each pair is weighted by one over the fraction of the domain that overlaps
 /// with the domain translated by their difference, which corrects for the edges (Ohser and Stoyan
 /// 1981).
-///
-/// set: the points, at least 2.
-///
-/// reach: where the last bin ends, in units of d_max: above 0, and at most half of the width or
-/// height of the domain.
-///
-/// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
-///
-/// out: an array of `bins` numbers: the mean of g in each bin. For sets of one kind and count, the
-/// mean of these over the sets is their g.
-///
-/// O(count * (1 + reach^2)) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - set: the points, at least 2.
+/// - reach: where the last bin ends, in units of d_max: above 0, and at most half of the width or
+///   height of the domain.
+/// - bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
+/// - out: an array of `bins` numbers: the mean of g in each bin. For sets of one kind and count,
+///   the mean of these over the sets is their g.
+/// - O(count * (1 + reach^2)) time for evenly spread points.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_plane_radial_distribution(const azulejo_context *context,
                                                  const azulejo_plane_set *set,
                                                  double reach,
@@ -273,10 +217,8 @@ typedef struct azulejo_spectrum azulejo_spectrum;
 
 /// The result of azulejo_spectrum_measure.
 typedef struct azulejo_spectrum_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
     /// The distances of neighbouring columns and rows, in units of sqrt(count / area).
     double frequency_step[2];
     /// The effective Nyquist frequency, in units of sqrt(count / area): half of the largest
@@ -302,10 +244,8 @@ typedef struct azulejo_spectrum_report {
 
 /// The frequencies of about one length: a point of the radial curves.
 typedef struct azulejo_annulus {
-    /// The mean length of its frequencies, in units of sqrt(count / area).
-    double frequency;
-    /// The mean power: the radial mean; 1 for a Poisson process.
-    double power;
+    double frequency; ///< The mean length of its frequencies, in units of sqrt(count / area).
+    double power; ///< The mean power: the radial mean; 1 for a Poisson process.
     /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0
     /// dB), the mean of n such spectra has 1/n; preferred directions give more.
     double anisotropy;
@@ -314,8 +254,7 @@ typedef struct azulejo_annulus {
 } azulejo_annulus;
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_spectrum_report_init(azulejo_spectrum_report *report,
                                             size_t struct_size);
 
@@ -325,23 +264,17 @@ azulejo_status azulejo_spectrum_report_init(azulejo_spectrum_report *report,
 /// A periodic domain has exact frequencies, whole numbers of waves per period. A bounded domain is
 /// treated as a window of a larger set: points are weighted by a taper that falls to 0 at the
 /// ellipse inside it, so that its edges do not show in the spectrum.
-///
-/// set: the points, which must be finite but may lie outside the domain. In a bounded domain at
-/// least one must lie inside the ellipse.
-///
-/// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
-/// width and 1 / height.
-///
-/// frequency_stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that
-/// the spectra of large sets reach as far as those of small ones. For all figures, size *
-/// frequency_stride of about 13 * sqrt(count) is enough on a square.
-///
-/// out: the spectrum, to be freed with azulejo_spectrum_free.
-///
-/// O(count + size^2 * log size) time, and about 40 bytes of memory per point and per frequency
-/// during the call.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - set: the points, which must be finite but may lie outside the domain. In a bounded domain at
+///   least one must lie inside the ellipse.
+/// - size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
+///   width and 1 / height.
+/// - frequency_stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that
+///   the spectra of large sets reach as far as those of small ones. For all figures, size *
+///   frequency_stride of about 13 * sqrt(count) is enough on a square.
+/// - out: the spectrum, to be freed with azulejo_spectrum_free.
+/// - O(count + size^2 * log size) time, and about 40 bytes of memory per point and per frequency
+///   during the call.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_spectrum_create(const azulejo_context *context,
                                        const azulejo_plane_set *set,
                                        uint32_t size,
@@ -351,14 +284,10 @@ azulejo_status azulejo_spectrum_create(const azulejo_context *context,
 /// Makes the mean of the spectra of sets of one kind. The noise of a single spectrum decreases with
 /// the square root of their number. It takes no context: it runs on the calling thread and does not
 /// report progress.
-///
-/// spectra: `count` spectra, at least 1, all of one size.
-///
-/// out: the mean, to be freed with azulejo_spectrum_free; the spectra still belong to the caller.
-///
-/// O(count * size^2) time and memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// - spectra: `count` spectra, at least 1, all of one size.
+/// - out: the mean, to be freed with azulejo_spectrum_free; the spectra still belong to the caller.
+/// - O(count * size^2) time and memory.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_spectrum_mean(const azulejo_spectrum *const *spectra,
                                      size_t count,
                                      azulejo_spectrum **out);
@@ -371,20 +300,14 @@ uint32_t azulejo_spectrum_size(const azulejo_spectrum *spectrum);
 const float *azulejo_spectrum_power(const azulejo_spectrum *spectrum);
 
 /// The radial curves of a spectrum, mean and anisotropy, out to its largest circle.
-///
-/// width: the width of an annulus, above 0, in units of sqrt(count / area). Annuli of fewer than
-/// two frequencies are left out.
-///
-/// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
-/// `capacity` is 0.
-///
-/// annulus_size: sizeof(azulejo_annulus).
-///
-/// out_count: their number, which may exceed the capacity.
-///
-/// O(size^2) time on the calling thread.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - width: the width of an annulus, above 0, in units of sqrt(count / area). Annuli of fewer than
+///   two frequencies are left out.
+/// - annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
+///   `capacity` is 0.
+/// - annulus_size: sizeof(azulejo_annulus).
+/// - out_count: their number, which may exceed the capacity.
+/// - O(size^2) time on the calling thread.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_spectrum_radial(const azulejo_spectrum *spectrum,
                                        double width,
                                        azulejo_annulus *annuli,
@@ -393,18 +316,13 @@ azulejo_status azulejo_spectrum_radial(const azulejo_spectrum *spectrum,
                                        size_t *out_count);
 
 /// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.
-///
-/// width: the width of the annuli of the radial mean, above 0, in units of sqrt(count / area); 0.05
-/// suits sets of some thousand points.
-///
-/// low, high: the range of frequencies for contrast and peak, finite, in units of sqrt(count /
-/// area).
-///
-/// out: the report.
-///
-/// O(size^2) time on the calling thread.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - width: the width of the annuli of the radial mean, above 0, in units of sqrt(count / area);
+///   0.05 suits sets of some thousand points.
+/// - low, high: the range of frequencies for contrast and peak, finite, in units of sqrt(count /
+///   area).
+/// - out: the report.
+/// - O(size^2) time on the calling thread.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_spectrum_measure(const azulejo_spectrum *spectrum,
                                         double width,
                                         double low,
@@ -420,8 +338,7 @@ void azulejo_spectrum_free(azulejo_spectrum *spectrum);
 /// The extent of the grid from the difference 0 along both axes, in mean spacings.
 #define AZULEJO_DIFFERENCES_GRID_REACH 4
 
-/// The shells of equal width of azulejo_differences_radial.
-#define AZULEJO_DIFFERENCES_SHELLS 512
+#define AZULEJO_DIFFERENCES_SHELLS 512 ///< The shells of equal width of azulejo_differences_radial.
 
 /// The distance at which the last shell ends, in mean spacings.
 #define AZULEJO_DIFFERENCES_REACH 8
@@ -440,24 +357,16 @@ typedef struct azulejo_differences azulejo_differences;
 /// Measures the differences of samples on a mesh. They are divided by those with random points of
 /// the mesh, so that boundaries, curvature and other sheets nearby cancel out (Davis and Peebles
 /// 1983).
-///
-/// mesh: must have area that its mask does not leave out.
-///
-/// positions: the samples, x y z each, finite; `count` of them, at least 2.
-///
-/// normals: the normals of the samples' triangles, x y z each, as azulejo_points_normals returns
-/// them; `count` of them.
-///
-/// direction: three numbers, not all 0: the x axis of the offsets is its projection onto the
-/// tangent plane.
-///
-/// seed: selects the random points, two per sample.
-///
-/// out: the differences, to be freed with azulejo_differences_free.
-///
-/// O(count) time for evenly spread samples.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// - mesh: must have area that its mask does not leave out.
+/// - positions: the samples, x y z each, finite; `count` of them, at least 2.
+/// - normals: the normals of the samples' triangles, x y z each, as azulejo_points_normals returns
+///   them; `count` of them.
+/// - direction: three numbers, not all 0: the x axis of the offsets is its projection onto the
+///   tangent plane.
+/// - seed: selects the random points, two per sample.
+/// - out: the differences, to be freed with azulejo_differences_free.
+/// - O(count) time for evenly spread samples.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_differences_create(const azulejo_context *context,
                                           const azulejo_mesh *mesh,
                                           const float *positions,
@@ -469,15 +378,11 @@ azulejo_status azulejo_differences_create(const azulejo_context *context,
 
 /// Combines the differences of sets of one kind. Their noise decreases with the square root of the
 /// number of sets. It takes no context: it runs on the calling thread and does not report progress.
-///
-/// differences: `count` of them, at least 1.
-///
-/// out: the mean, to be freed with azulejo_differences_free; those given still belong to the
-/// caller.
-///
-/// O(count) time and memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// - differences: `count` of them, at least 1.
+/// - out: the mean, to be freed with azulejo_differences_free; those given still belong to the
+///   caller.
+/// - O(count) time and memory.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_differences_mean(const azulejo_differences *const *differences,
                                         size_t count,
                                         azulejo_differences **out);
@@ -493,15 +398,11 @@ const double *azulejo_differences_radial(const azulejo_differences *differences)
 
 /// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for
 /// a Poisson process. Its resolution is one over AZULEJO_DIFFERENCES_REACH.
-///
-/// frequencies: `count` frequencies from -32 to 32, in units of one over the mean spacing; may be
-/// NULL if `count` is 0.
-///
-/// out: receives the power at each, `count` numbers; may be NULL if `count` is 0.
-///
-/// O(count) time on the calling thread.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// - frequencies: `count` frequencies from -32 to 32, in units of one over the mean spacing; may be
+///   NULL if `count` is 0.
+/// - out: receives the power at each, `count` numbers; may be NULL if `count` is 0.
+/// - O(count) time on the calling thread.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_differences_power(const azulejo_differences *differences,
                                          const double *frequencies,
                                          size_t count,

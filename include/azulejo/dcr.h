@@ -1,6 +1,5 @@
 /*
  * DCR: relaxation of point sets in the plane, with a density, and on meshes.
- *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -24,20 +23,16 @@ extern "C" {
 /// points around them, points have momentum, and long waves of the density are removed.
 #define AZULEJO_METHOD_MOMENTUM 0
 
-/// The algorithm of thesis chapter 4.
-#define AZULEJO_METHOD_THESIS 1
+#define AZULEJO_METHOD_THESIS 1 ///< The algorithm of thesis chapter 4.
 
 /// The tension of an edge is divided between its ends according to their activeness: the default.
 #define AZULEJO_DISTRIBUTION_ACTIVENESS 0
 
-/// Half of the tension goes to each end.
-#define AZULEJO_DISTRIBUTION_AVERAGE 1
+#define AZULEJO_DISTRIBUTION_AVERAGE 1 ///< Half of the tension goes to each end.
 
-/// All of the tension goes to the neighbour.
-#define AZULEJO_DISTRIBUTION_DOMINANT 2
+#define AZULEJO_DISTRIBUTION_DOMINANT 2 ///< All of the tension goes to the neighbour.
 
-/// All of the tension goes to the point itself.
-#define AZULEJO_DISTRIBUTION_ZERO 3
+#define AZULEJO_DISTRIBUTION_ZERO 3 ///< All of the tension goes to the point itself.
 
 /// 80 per cent of the tension goes to the point itself, 20 to the neighbour.
 #define AZULEJO_DISTRIBUTION_EIGHTY_TWENTY 4
@@ -64,11 +59,9 @@ extern "C" {
 /// to the last step.
 #define AZULEJO_STOPPED_CONVERGED 0
 
-/// All steps were made.
-#define AZULEJO_STOPPED_STEPS 1
+#define AZULEJO_STOPPED_STEPS 1 ///< All steps were made.
 
-/// The progress callback cancelled the call.
-#define AZULEJO_STOPPED_CANCELLED 2
+#define AZULEJO_STOPPED_CANCELLED 2 ///< The progress callback cancelled the call.
 
 /// Options of azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_scatter. The latter uses
 /// only the domain, the boundary, the seed and the progress callback; the struct is shared so that
@@ -77,25 +70,19 @@ extern "C" {
 /// The fields from `conflict_radius` on are settings of AZULEJO_METHOD_THESIS; with
 /// AZULEJO_METHOD_MOMENTUM they must have their defaults.
 typedef struct azulejo_dcr_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    uint32_t boundary;
-    /// The lower corner of the domain, x y; finite; default 0 0.
-    double domain_min[2];
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
+    double domain_min[2]; ///< The lower corner of the domain, x y; finite; default 0 0.
     /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
     /// 1 1. Neither side may be longer than 2^100 times the other.
     double domain_max[2];
-    /// An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
-    uint32_t neighbourhood;
-    /// An AZULEJO_METHOD_ constant; default momentum.
-    uint32_t method;
+    uint32_t neighbourhood; ///< An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
+    uint32_t method; ///< An AZULEJO_METHOD_ constant; default momentum.
     /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
     /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
     /// ends earlier when the set has converged.
     uint32_t max_iterations;
-    /// Must be 0.
-    uint32_t reserved;
+    uint32_t reserved; ///< Must be 0.
     /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
     /// azulejo_dcr_relax_density those of a clustered set's redistribution; any number, default 0.
     uint64_t seed;
@@ -105,8 +92,7 @@ typedef struct azulejo_dcr_options {
     double tolerance;
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
     /// Neighbours closer than this, in units of d_max, repel each other; above 0, at most 1;
     /// default 0.95.
     double conflict_radius;
@@ -122,22 +108,16 @@ typedef struct azulejo_dcr_options {
     uint32_t neighbours;
     /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); default activeness.
     uint32_t distribution;
-    /// An AZULEJO_VISITS_ constant; default both ends.
-    uint32_t visits;
-    /// An AZULEJO_CONVERGENCE_ constant; default motion.
-    uint32_t convergence;
+    uint32_t visits; ///< An AZULEJO_VISITS_ constant; default both ends.
+    uint32_t convergence; ///< An AZULEJO_CONVERGENCE_ constant; default motion.
 } azulejo_dcr_options;
 
 /// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
 typedef struct azulejo_dcr_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// The steps made.
-    uint32_t iterations;
-    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    uint32_t stopped;
-    /// Always 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t iterations; ///< The steps made.
+    uint32_t stopped; ///< Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    uint32_t reserved; ///< Always 0.
     /// Half of the distance that points moved, root mean square, in units of d_max: over the last
     /// 10 steps, or with AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, so that
     /// it does not depend on the step size.
@@ -153,13 +133,11 @@ typedef struct azulejo_dcr_report {
 } azulejo_dcr_report;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_dcr_options_init(azulejo_dcr_options *options, size_t struct_size);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_dcr_report_init(azulejo_dcr_report *report, size_t struct_size);
 
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
@@ -175,20 +153,15 @@ azulejo_status azulejo_dcr_report_init(azulejo_dcr_report *report, size_t struct
 /// closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it
 /// is the set after the last whole step. A call that its progress callback cancels succeeds with
 /// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
-///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// out: the points, in the same order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(count) time for each step from evenly spread points. O(count * log count) where the
-/// triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
-/// AZULEJO_METHOD_MOMENTUM in sets of a few points and in the first steps of sets with holes as
-/// wide as the domain. A bounded domain takes up to four times the time and memory of a periodic
-/// one. O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// - positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// - out: the points, in the same order, to be freed with azulejo_points_free.
+/// - report: what the call did, or NULL.
+/// - O(count) time for each step from evenly spread points. O(count * log count) where the
+///   triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
+///   AZULEJO_METHOD_MOMENTUM in sets of a few points and in the first steps of sets with holes as
+///   wide as the domain. A bounded domain takes up to four times the time and memory of a periodic
+///   one. O(count) memory.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax(const azulejo_context *context,
                                  const azulejo_dcr_options *options,
                                  const float *positions,
@@ -208,25 +181,18 @@ azulejo_status azulejo_dcr_relax(const azulejo_context *context,
 /// some places and missing in others is levelled before the first step. A call that its
 /// progress callback cancels succeeds with what there is then, and AZULEJO_STOPPED_CANCELLED in
 /// the report.
-///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// classes: the class of each point, below class_count; `count` of them.
-///
-/// class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
-///
-/// class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
-/// `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
-/// number of points; infinite where a class has fewer than two points, or none.
-///
-/// out: the points, in the same order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, with the figures of the union, or NULL.
+/// - positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// - classes: the class of each point, below class_count; `count` of them.
+/// - class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
+/// - class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
+///   `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
+///   number of points; infinite where a class has fewer than two points, or none.
+/// - out: the points, in the same order, to be freed with azulejo_points_free.
+/// - report: what the call did, with the figures of the union, or NULL.
 ///
 /// About 2.5 times the time of azulejo_dcr_relax, and O(count) memory. Source: the constraints
 /// of thesis chapter 4 for each of the sets; several classes after Wei 2010.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
                                          const azulejo_dcr_options *options,
                                          const float *positions,
@@ -245,10 +211,8 @@ azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
 /// "Callbacks" at the top), and must not call the library with the same context. It is called once
 /// for each place of a lattice of up to some hundred places per point: by azulejo_dcr_relax_density
 /// before its first report of progress, by azulejo_dcr_scatter after that.
-///
-/// user: the `function_user` of the azulejo_density.
-///
-/// position: x y of a place in the domain.
+/// - user: the `function_user` of the azulejo_density.
+/// - position: x y of a place in the domain.
 ///
 /// Returns the density, finite and at least 0.
 typedef double (*azulejo_density_fn)(void *user, const double *position);
@@ -257,10 +221,8 @@ typedef double (*azulejo_density_fn)(void *user, const double *position);
 /// Densities are finite, at least 0, and not 0 everywhere; where they are 0 no points are wanted.
 /// Either `values` or `function` must be set.
 typedef struct azulejo_density {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Must be 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Must be 0.
     /// An image that is stretched over the domain, linear between the centres of its pixels:
     /// `height` rows of `width` densities, the first row along the lower edge of the domain
     /// (domain_min[1]). Used during the call only. NULL, the default, if `function` is set.
@@ -271,30 +233,22 @@ typedef struct azulejo_density {
     size_t height;
     /// Gives the density at a position. NULL, the default, if `values` is set.
     azulejo_density_fn function;
-    /// Passed to `function`.
-    void *function_user;
+    void *function_user; ///< Passed to `function`.
 } azulejo_density;
 
 /// Writes the defaults. `struct_size` is sizeof *density.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_density_init(azulejo_density *density, size_t struct_size);
 
 /// Makes random points with a density: a start for azulejo_dcr_relax_density.
-///
-/// options: the domain, the boundary, the seed and the progress callback are used; the other fields
-/// are checked only.
-///
-/// density: the density of the points.
-///
-/// count: the number of points.
-///
-/// out: the points, x y each, to be freed with azulejo_points_free.
-///
-/// O(count * log count) time, and O(count) calls of a density function; O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
-/// everywhere; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// - options: the domain, the boundary, the seed and the progress callback are used; the other
+///   fields are checked only.
+/// - density: the density of the points.
+/// - count: the number of points.
+/// - out: the points, x y each, to be freed with azulejo_points_free.
+/// - O(count * log count) time, and O(count) calls of a density function; O(count) memory.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or
+///   0 everywhere; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_dcr_scatter(const azulejo_context *context,
                                    const azulejo_dcr_options *options,
                                    const azulejo_density *density,
@@ -315,25 +269,18 @@ azulejo_status azulejo_dcr_scatter(const azulejo_context *context,
 /// circumradius of a Delaunay triangle over the spacing at its centre, without the limit to its
 /// increase; its motion is in units of d_max. Details of the density smaller than an eighth of
 /// d_max are lost.
-///
-/// options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; others are
-/// refused.
-///
-/// density: the density of the points; used during the call only.
-///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// out: the points after the last whole step, in the same order, to be freed with
-/// azulejo_points_free. A call that its progress callback cancels succeeds, as that of
-/// azulejo_dcr_relax does.
-///
-/// report: what the call did, or NULL.
-///
-/// O(count) calls of a density function, then O(count) time for each step, with a factor for
-/// densities that vary by orders of magnitude; O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
-/// everywhere; AZULEJO_ERROR_TOO_LARGE.
+/// - options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; others are
+///   refused.
+/// - density: the density of the points; used during the call only.
+/// - positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// - out: the points after the last whole step, in the same order, to be freed with
+///   azulejo_points_free. A call that its progress callback cancels succeeds, as that of
+///   azulejo_dcr_relax does.
+/// - report: what the call did, or NULL.
+/// - O(count) calls of a density function, then O(count) time for each step, with a factor for
+///   densities that vary by orders of magnitude; O(count) memory.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or
+///   0 everywhere; AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_relax_density(const azulejo_context *context,
                                          const azulejo_dcr_options *options,
                                          const azulejo_density *density,
@@ -344,8 +291,7 @@ azulejo_status azulejo_dcr_relax_density(const azulejo_context *context,
 
 /// Options of azulejo_dcr_surface_relax.
 typedef struct azulejo_dcr_surface_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// The largest number of steps; default 100. 0 returns the samples as they are, those outside
     /// their triangle by rounding moved to its edge. The call ends earlier when the set has
     /// converged.
@@ -358,20 +304,15 @@ typedef struct azulejo_dcr_surface_options {
     uint64_t seed;
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
 } azulejo_dcr_surface_options;
 
 /// The report of azulejo_dcr_surface_relax. Its d_max is that of a plane of the mesh's area.
 typedef struct azulejo_dcr_surface_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// The steps made.
-    uint32_t iterations;
-    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    uint32_t stopped;
-    /// Always 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t iterations; ///< The steps made.
+    uint32_t stopped; ///< Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    uint32_t reserved; ///< Always 0.
     /// Half of the distance that samples moved over the last 10 steps, root mean square, in units
     /// of d_max.
     double motion;
@@ -386,14 +327,12 @@ typedef struct azulejo_dcr_surface_report {
 } azulejo_dcr_surface_report;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_dcr_surface_options_init(azulejo_dcr_surface_options *options,
                                                 size_t struct_size);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_dcr_surface_report_init(azulejo_dcr_surface_report *report,
                                                size_t struct_size);
 
@@ -411,22 +350,17 @@ azulejo_status azulejo_dcr_surface_report_init(azulejo_dcr_surface_report *repor
 /// More than 64 samples that are clustered on a part of the surface are redistributed over all of
 /// it before the first step, onto random points that are no nearer to each other than the nearest
 /// samples were: each connected part receives samples by its area. Without room for that they stay.
-///
-/// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
-/// azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside their
-/// triangle by at most 1e-6 are moved onto it.
-///
-/// out: the samples after the last whole step, in the same order, with normals, triangles and
-/// barycentrics, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(triangles) time once, and for evenly spread samples O(count) for each step, somewhat more with
-/// many triangles between neighbouring samples. Steps take longer beside many boundaries and for
-/// clustered samples. O(count + triangles) memory. The call is cancelled between steps.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
-/// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.
+/// - triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
+///   azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside
+///   their triangle by at most 1e-6 are moved onto it.
+/// - out: the samples after the last whole step, in the same order, with normals, triangles and
+///   barycentrics, to be freed with azulejo_points_free.
+/// - report: what the call did, or NULL.
+/// - O(triangles) time once, and for evenly spread samples O(count) for each step, somewhat more
+///   with many triangles between neighbouring samples. Steps take longer beside many boundaries and
+///   for clustered samples. O(count + triangles) memory. The call is cancelled between steps.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
+///   are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.
 azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
                                          const azulejo_mesh *mesh,
                                          const azulejo_dcr_surface_options *options,
@@ -440,40 +374,30 @@ azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
 /// `non_manifold_vertices` is 0, and closed if `boundary_edges` is 0 too: no edge has more than two
 /// triangles, and two triangles at an edge are wound alike.
 typedef struct azulejo_dcr_remesh_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
-    /// The triangles of the mesh.
-    uint64_t triangles;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t triangles; ///< The triangles of the mesh.
     /// Those of them that not all of their three corners have in their Delaunay stars.
     uint64_t disputed;
     /// The triangles of stars that are not in the mesh because they do not go with others.
     uint64_t left_out;
-    /// The edges with one triangle, which are the boundary.
-    uint64_t boundary_edges;
-    /// The edges with two triangles.
-    uint64_t inner_edges;
-    /// The edges with more than two triangles: always 0.
-    uint64_t non_manifold_edges;
+    uint64_t boundary_edges; ///< The edges with one triangle, which are the boundary.
+    uint64_t inner_edges; ///< The edges with two triangles.
+    uint64_t non_manifold_edges; ///< The edges with more than two triangles: always 0.
     /// The samples whose triangles are not all connected by edges at the sample.
     uint64_t non_manifold_vertices;
-    /// The samples without a triangle.
-    uint64_t unused_vertices;
+    uint64_t unused_vertices; ///< The samples without a triangle.
     /// Euler's characteristic, vertices - edges + triangles, without unused vertices: 2 for a
     /// sphere, 0 for a torus, 1 for a disk.
     int64_t euler;
-    /// The smallest angle of all triangles, in degrees.
-    double smallest_angle;
-    /// The largest angle of all triangles, in degrees.
-    double largest_angle;
+    double smallest_angle; ///< The smallest angle of all triangles, in degrees.
+    double largest_angle; ///< The largest angle of all triangles, in degrees.
     /// The mean over all triangles of their smallest angle, in degrees.
     double mean_smallest_angle;
 } azulejo_dcr_remesh_report;
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_dcr_remesh_report_init(azulejo_dcr_remesh_report *report,
                                               size_t struct_size);
 
@@ -487,20 +411,15 @@ azulejo_status azulejo_dcr_remesh_report_init(azulejo_dcr_remesh_report *report,
 /// same topology. Where they do not, as on thin blades and between faces that are wound against
 /// each other, there are holes. Triangles do not cross open boundaries: the new boundary is that of
 /// the outermost samples.
-///
-/// triangles, barycentrics: as for azulejo_dcr_surface_relax.
-///
-/// out: the new mesh, to be freed with azulejo_mesh_free. Vertex i is sample i, also if it has no
-/// triangle; triangles are wound as those of the old mesh under their corners. See
-/// azulejo_mesh_positions and azulejo_mesh_indices.
-///
-/// report: what was made, or NULL.
-///
-/// O(n log n) time and O(n) memory in samples and triangles. Progress is that of
-/// azulejo_context_watch.
-///
-/// Errors: those of azulejo_dcr_surface_relax; AZULEJO_ERROR_INVALID_ARGUMENT for samples that form
-/// no triangle; AZULEJO_ERROR_CANCELLED.
+/// - triangles, barycentrics: as for azulejo_dcr_surface_relax.
+/// - out: the new mesh, to be freed with azulejo_mesh_free. Vertex i is sample i, also if it has no
+///   triangle; triangles are wound as those of the old mesh under their corners. See
+///   azulejo_mesh_positions and azulejo_mesh_indices.
+/// - report: what was made, or NULL.
+/// - O(n log n) time and O(n) memory in samples and triangles. Progress is that of
+///   azulejo_context_watch.
+/// - Errors: those of azulejo_dcr_surface_relax; AZULEJO_ERROR_INVALID_ARGUMENT for samples that
+///   form no triangle; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_dcr_remesh(const azulejo_context *context,
                                   const azulejo_mesh *mesh,
                                   const uint32_t *triangles,

@@ -1,6 +1,5 @@
 /*
  * KDRT: maximal Poisson-disk sets in the plane, whole, in windows and in streams.
- *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -17,17 +16,14 @@ extern "C" {
 /// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and
 /// azulejo_kdrt_create_classes.
 typedef struct azulejo_kdrt_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    uint32_t boundary;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
     /// there is a `count`, from which the radius follows, and in calls with classes, which have
     /// radii of their own.
     double radius;
-    /// The lower corner of the domain, x y; finite; default 0 0.
-    double domain_min[2];
+    double domain_min[2]; ///< The lower corner of the domain, x y; finite; default 0 0.
     /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
     /// 1 1. Neither side may be longer than 2^100 times the other.
     double domain_max[2];
@@ -35,12 +31,10 @@ typedef struct azulejo_kdrt_options {
     /// Sides are random, up to twice as long. Larger leaves are faster and have fewer seams, but
     /// need a larger pattern.
     double leaf_size;
-    /// Any number; another seed gives another set. Default 0.
-    uint64_t seed;
+    uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
     /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
     /// streams and planes that are kept, which are made by radius.
     size_t count;
@@ -70,47 +64,39 @@ typedef struct azulejo_kdrt_options {
     /// all have the `radius`. In calls with classes it has a row for each given sample, with a
     /// clearance for each class.
     const double *given_clearances;
-    /// The number of given samples; default 0.
-    size_t given_count;
+    size_t given_count; ///< The number of given samples; default 0.
 } azulejo_kdrt_options;
 
 /// The report of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
 /// azulejo_maximal_sample.
 typedef struct azulejo_kdrt_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// 1 if the set, of which a window has a part, is maximal for `radius`, else 0.
     uint32_t is_maximal;
-    /// The number of samples; the `count` of the options if there is one.
-    uint64_t samples;
+    uint64_t samples; ///< The number of samples; the `count` of the options if there is one.
     /// The radius, that of the options or the one found for the count, in the units of the domain.
     /// No two samples are closer.
     double radius;
     /// The covering radius as azulejo_plane_covering_radius measures it, in the units of the
     /// domain, if the options have `measure_covering_radius`; else -1.
     double covering_radius;
-    /// Wall time in seconds, without the measuring of `covering_radius`.
-    double seconds;
+    double seconds; ///< Wall time in seconds, without the measuring of `covering_radius`.
 } azulejo_kdrt_report;
 
 /// Called with a part of a set, on the thread that made the call. See "Callbacks" at the top.
-///
-/// user: the `user` of the call.
-///
-/// positions: the samples, x y each, valid until the callback returns; `count` of them, at least
-/// one.
+/// - user: the `user` of the call.
+/// - positions: the samples, x y each, valid until the callback returns; `count` of them, at least
+///   one.
 ///
 /// Returns 0 to continue, any other value to cancel the call.
 typedef uint32_t (*azulejo_kdrt_visit_fn)(void *user, const float *positions, size_t count);
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_kdrt_options_init(azulejo_kdrt_options *options, size_t struct_size);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_kdrt_report_init(azulejo_kdrt_report *report, size_t struct_size);
 
 /// Makes a maximal, conflict-free set of samples of a rectangle: about 0.6966 * area / radius^2 of
@@ -144,22 +130,17 @@ azulejo_status azulejo_kdrt_report_init(azulejo_kdrt_report *report, size_t stru
 /// spacings at the largest coordinate. Given samples are not moved, dropped, compared with each
 /// other or part of the result. They take about a microsecond each, more than that only where their
 /// clearances are of very many radii. In progressive order they cover from the first level on.
-///
-/// options: with a radius or a count, not both.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
-/// were made again take the places of others in the order.
-///
-/// report: what the call achieved, or NULL. It costs nothing unless `measure_covering_radius` is 1;
-/// then progress includes the measuring.
-///
-/// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
-/// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
-/// Measuring the covering radius takes O(samples * log samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
-/// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
-/// estimate, for 2^32 samples or more, or more than memory holds; AZULEJO_ERROR_CANCELLED.
+/// - options: with a radius or a count, not both.
+/// - out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
+///   were made again take the places of others in the order.
+/// - report: what the call achieved, or NULL. It costs nothing unless `measure_covering_radius` is
+///   1; then progress includes the measuring.
+/// - O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
+///   progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
+///   Measuring the covering radius takes O(samples * log samples).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below
+///   64 times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
+///   estimate, for 2^32 samples or more, or more than memory holds; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_sample(const azulejo_context *context,
                                    const azulejo_kdrt_options *options,
                                    azulejo_points **out,
@@ -179,24 +160,18 @@ azulejo_status azulejo_kdrt_sample(const azulejo_context *context,
 /// 15,000 and 4,500 samples, as long as the domain is larger than that. A level costs about 0.2
 /// microseconds for each of them. From `coarsest` down to `radius` there are 8, 4 or 2 levels for
 /// each factor of two.
-///
-/// options: those of the whole set, with a radius.
-///
-/// window_min, window_max: the corners, x y each, with domain_min <= window_min < window_max <=
-/// domain_max. The window has the samples with window_min <= x < window_max. It may be smaller than
-/// the radius and may contain no sample.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
-/// report: what the call achieved, or NULL.
-///
-/// O(samples in and around the window) time and memory, and in every call the making of the
-/// pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
-/// azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for the
-/// samples of the window, while the domain may have as many as floats can carry, up to about 10^11;
-/// AZULEJO_ERROR_CANCELLED.
+/// - options: those of the whole set, with a radius.
+/// - window_min, window_max: the corners, x y each, with domain_min <= window_min < window_max <=
+///   domain_max. The window has the samples with window_min <= x < window_max. It may be smaller
+///   than the radius and may contain no sample.
+/// - out: the samples, x y each, to be freed with azulejo_points_free.
+/// - report: what the call achieved, or NULL.
+/// - O(samples in and around the window) time and memory, and in every call the making of the
+///   pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
+///   azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for the
+///   samples of the window, while the domain may have as many as floats can carry, up to about
+///   10^11; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_sample_window(const azulejo_context *context,
                                           const azulejo_kdrt_options *options,
                                           const double *window_min,
@@ -206,23 +181,17 @@ azulejo_status azulejo_kdrt_sample_window(const azulejo_context *context,
 
 /// Makes the set of azulejo_kdrt_sample and passes it to a callback part by part, in its order,
 /// instead of keeping it: for sets of any size that are written or consumed at once.
-///
-/// options: those of the whole set, with a radius.
-///
-/// visit: gets the parts: windows at most about 270 radii wide, of at most about 50,000 samples,
-/// the same ones for every number of threads. While it runs on the calling thread, the threads of
-/// the context make the next parts.
-///
-/// user: passed to `visit`.
-///
-/// report: what the call achieved, or NULL.
-///
-/// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
-/// tiled is made as a whole and is one part.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
-/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
-/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels. A progressive order is refused.
+/// - options: those of the whole set, with a radius.
+/// - visit: gets the parts: windows at most about 270 radii wide, of at most about 50,000 samples,
+///   the same ones for every number of threads. While it runs on the calling thread, the threads of
+///   the context make the next parts.
+/// - user: passed to `visit`.
+/// - report: what the call achieved, or NULL.
+/// - O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
+///   tiled is made as a whole and is one part.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
+///   can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
+///   AZULEJO_ERROR_CANCELLED, also if `visit` cancels. A progressive order is refused.
 azulejo_status azulejo_kdrt_stream(const azulejo_context *context,
                                    const azulejo_kdrt_options *options,
                                    azulejo_kdrt_visit_fn visit,
@@ -234,22 +203,19 @@ azulejo_status azulejo_kdrt_stream(const azulejo_context *context,
 typedef struct azulejo_kdrt azulejo_kdrt;
 
 /// Makes what all windows of a plane need: its pattern and tables.
-///
-/// options: those of the whole set, with a radius. The progress callback is called during this call
-/// only.
-///
-/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
-///
-/// O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes 32
-/// bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of the
-/// domain, however many samples the domain has. A domain that is not tiled (see
-/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
-/// the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
-/// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
-/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
-/// AZULEJO_ERROR_CANCELLED.
+/// - options: those of the whole set, with a radius. The progress callback is called during this
+///   call only.
+/// - out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any
+///   thread.
+/// - O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes
+///   32 bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of
+///   the domain, however many samples the domain has. A domain that is not tiled (see
+///   azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
+///   the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
+///   the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
+///   can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
+///   AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_create(const azulejo_context *context,
                                    const azulejo_kdrt_options *options,
                                    azulejo_kdrt **out);
@@ -261,17 +227,13 @@ azulejo_status azulejo_kdrt_create(const azulejo_context *context,
 /// All work happens on the calling thread, and other threads may make windows of the same plane
 /// meanwhile. Very large windows are made faster by azulejo_kdrt_sample_window, on the threads of a
 /// context.
-///
-/// window_min, window_max: as in azulejo_kdrt_sample_window.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
-/// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
-/// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has for
-/// it.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
-/// window, or more than memory holds.
+/// - window_min, window_max: as in azulejo_kdrt_sample_window.
+/// - out: the samples, x y each, to be freed with azulejo_points_free.
+/// - O(samples in the window and within about 20 radii of it) time and memory; in progressive order
+///   also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has
+///   for it.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in
+///   the window, or more than memory holds.
 azulejo_status azulejo_kdrt_window(const azulejo_kdrt *plane,
                                    const double *window_min,
                                    const double *window_max,
@@ -300,27 +262,21 @@ void azulejo_kdrt_free(azulejo_kdrt *plane);
 /// larger own radius; where a class has less than 100 of them, within 2 or the square of `quotient`
 /// times that instead. So a host can show the first part of each class, near parts of a scene more
 /// than far ones. It takes about eight times the time.
-///
-/// options: `radius` must be 0, since classes have radii of their own; `count` and
-/// `measure_covering_radius` must be 0. `coarsest` is the radius of the first level of each class,
-/// at least the largest own radius. `given_clearances`, if not NULL, has given_count rows, each
-/// with a clearance for each class; NULL: each class's own radius.
-///
-/// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
-/// order.
-///
-/// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
-/// y and x, in progressive order by falling rank; to be freed with azulejo_points_free.
-///
-/// report: how many samples each class has, or NULL.
-///
-/// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
-/// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
-/// radii, these classes are filled by one thread, with 512 bytes per sample.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an own radius below 64 times the spacing of
-/// floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, or more than
-/// memory holds; AZULEJO_ERROR_CANCELLED.
+/// - options: `radius` must be 0, since classes have radii of their own; `count` and
+///   `measure_covering_radius` must be 0. `coarsest` is the radius of the first level of each
+///   class, at least the largest own radius. `given_clearances`, if not NULL, has given_count rows,
+///   each with a clearance for each class; NULL: each class's own radius.
+/// - classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
+///   order.
+/// - out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class
+///   by y and x, in progressive order by falling rank; to be freed with azulejo_points_free.
+/// - report: how many samples each class has, or NULL.
+/// - O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
+///   domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
+///   radii, these classes are filled by one thread, with 512 bytes per sample.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an own radius below 64 times the spacing of
+///   floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, or more
+///   than memory holds; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_sample_classes(const azulejo_context *context,
                                            const azulejo_kdrt_options *options,
                                            const azulejo_classes *classes,
@@ -330,24 +286,22 @@ azulejo_status azulejo_kdrt_sample_classes(const azulejo_context *context,
 /// Makes what all windows of a plane of several classes need. azulejo_kdrt_window then makes any of
 /// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order, with
 /// azulejo_points_classes.
-///
-/// options, classes: those of the whole set. The progress callback is called during this call only.
-///
-/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
+/// - options, classes: those of the whole set. The progress callback is called during this call
+///   only.
+/// - out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any
+///   thread.
 ///
 /// A window takes O(samples in and around it) time and memory: classes of one own radius depend on
 /// what lies within about 30 times the largest r_ij between two of them, and one between them and
 /// classes of larger radii, and these on what lies around that again. In progressive order each
 /// level adds 30 times its r_ij: windows of large domains need a `coarsest` of a few times the
 /// largest own radius.
-///
-/// O(samples of the pattern) time. The plane takes what that of azulejo_kdrt_create takes for the
-/// largest own radius, and 1 byte for each of the other radii on the sides of the domain. On a
-/// torus that is narrower than about 10 times the largest r_ij between classes of equal own radii,
-/// these and the classes before are made as a whole and kept, in 12 bytes per sample.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample_classes; AZULEJO_ERROR_CANCELLED.
-/// The domain may have more samples than can be held.
+/// - O(samples of the pattern) time. The plane takes what that of azulejo_kdrt_create takes for the
+///   largest own radius, and 1 byte for each of the other radii on the sides of the domain. On a
+///   torus that is narrower than about 10 times the largest r_ij between classes of equal own
+///   radii, these and the classes before are made as a whole and kept, in 12 bytes per sample.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample_classes;
+///   AZULEJO_ERROR_CANCELLED. The domain may have more samples than can be held.
 azulejo_status azulejo_kdrt_create_classes(const azulejo_context *context,
                                            const azulejo_kdrt_options *options,
                                            const azulejo_classes *classes,
@@ -355,40 +309,30 @@ azulejo_status azulejo_kdrt_create_classes(const azulejo_context *context,
 
 /// Options of azulejo_kdrt_merge.
 typedef struct azulejo_kdrt_merge_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    uint32_t boundary;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
     /// The smallest distance between two samples, that of the pieces, in the units of the domain:
     /// above 0, and at least 64 times the spacing of floats at the largest coordinate. It has no
     /// default.
     double radius;
-    /// The lower corner of the domain, x y; finite; default 0 0.
-    double domain_min[2];
+    double domain_min[2]; ///< The lower corner of the domain, x y; finite; default 0 0.
     /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
     /// 1 1. Neither side may be longer than 2^100 times the other.
     double domain_max[2];
-    /// Any number; another seed gives another set. Default 0.
-    uint64_t seed;
+    uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
 } azulejo_kdrt_merge_options;
 
 /// The fate of the samples of the pieces. The result has the fixed points first, then the kept
 /// samples, then the inserted ones.
 typedef struct azulejo_kdrt_merge_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
-    /// The samples of the pieces that are in the result.
-    uint64_t kept;
-    /// The samples of the pieces that are not.
-    uint64_t eliminated;
-    /// The new samples.
-    uint64_t inserted;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t kept; ///< The samples of the pieces that are in the result.
+    uint64_t eliminated; ///< The samples of the pieces that are not.
+    uint64_t inserted; ///< The new samples.
 } azulejo_kdrt_merge_report;
 
 /// A set of samples that was made independently, such as by azulejo_kdrt_sample on a bounded domain
@@ -397,23 +341,18 @@ typedef struct azulejo_kdrt_merge_piece {
     /// The samples, x y each, with min <= x < max, no two of them closer than the radius; read
     /// during the call only. They need not be maximal. NULL if there are none.
     const float *positions;
-    /// The number of samples.
-    size_t count;
-    /// The lower corner of the piece's rectangle, x y.
-    double min[2];
-    /// The upper corner of the rectangle, above the lower one on both axes.
-    double max[2];
+    size_t count; ///< The number of samples.
+    double min[2]; ///< The lower corner of the piece's rectangle, x y.
+    double max[2]; ///< The upper corner of the rectangle, above the lower one on both axes.
 } azulejo_kdrt_merge_piece;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_kdrt_merge_options_init(azulejo_kdrt_merge_options *options,
                                                size_t struct_size);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_kdrt_merge_report_init(azulejo_kdrt_merge_report *report,
                                               size_t struct_size);
 
@@ -426,26 +365,19 @@ azulejo_status azulejo_kdrt_merge_report_init(azulejo_kdrt_merge_report *report,
 /// periodic domain, of its own; which of the two is removed depends on the seed and the order of
 /// the pieces. If the pieces are maximal as azulejo_kdrt_sample makes them, new samples lie within
 /// the radius of a removed sample or of the edge of a piece's rectangle.
-///
-/// pieces: `piece_count` of them, in the domain; NULL if there are none.
-///
-/// piece_size: sizeof(azulejo_kdrt_merge_piece).
-///
-/// fixed: the points that must stay, x y each, with domain_min <= x < domain_max, no two of them
-/// closer than the radius; `fixed_count` of them; NULL if there are none.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free: all fixed points, then the
-/// kept samples piece by piece, both in their order and bit for bit as given, then the new ones.
-///
-/// report: what became of the pieces, or NULL.
-///
-/// O(samples) time and memory, and at most O(piece_count^2) time for the rectangles. A periodic
-/// domain narrower than about 10 radii is filled on one thread.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain,
-/// samples outside their rectangle, two samples of one piece or two fixed points that are closer
-/// than the radius (the message has their indices), and a radius below 64 times the spacing of
-/// floats; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// - pieces: `piece_count` of them, in the domain; NULL if there are none.
+/// - piece_size: sizeof(azulejo_kdrt_merge_piece).
+/// - fixed: the points that must stay, x y each, with domain_min <= x < domain_max, no two of them
+///   closer than the radius; `fixed_count` of them; NULL if there are none.
+/// - out: the samples, x y each, to be freed with azulejo_points_free: all fixed points, then the
+///   kept samples piece by piece, both in their order and bit for bit as given, then the new ones.
+/// - report: what became of the pieces, or NULL.
+/// - O(samples) time and memory, and at most O(piece_count^2) time for the rectangles. A periodic
+///   domain narrower than about 10 radii is filled on one thread.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain,
+///   samples outside their rectangle, two samples of one piece or two fixed points that are closer
+///   than the radius (the message has their indices), and a radius below 64 times the spacing of
+///   floats; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_kdrt_merge(const azulejo_context *context,
                                   const azulejo_kdrt_merge_options *options,
                                   const azulejo_kdrt_merge_piece *pieces,
@@ -458,29 +390,23 @@ azulejo_status azulejo_kdrt_merge(const azulejo_context *context,
 
 /// Options of azulejo_maximal_sample.
 typedef struct azulejo_maximal_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    uint32_t boundary;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
     /// The smallest distance between two samples, in the units of the domain: above 0, and at least
     /// 64 times the spacing of floats at the largest coordinate. It has no default.
     double radius;
-    /// The lower corner of the domain, x y; finite; default 0 0.
-    double domain_min[2];
+    double domain_min[2]; ///< The lower corner of the domain, x y; finite; default 0 0.
     /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
     /// 1 1. Neither side may be longer than 2^100 times the other.
     double domain_max[2];
-    /// Any number; another seed gives another set. Default 0.
-    uint64_t seed;
+    uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
 } azulejo_maximal_options;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_maximal_options_init(azulejo_maximal_options *options,
                                             size_t struct_size);
 
@@ -491,14 +417,10 @@ azulejo_status azulejo_maximal_options_init(azulejo_maximal_options *options,
 ///
 /// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High
 /// Dimensions, 2012.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
-/// report: what the call achieved, or NULL.
-///
-/// O(samples) time and memory.
-///
-/// Errors: as azulejo_kdrt_sample.
+/// - out: the samples, x y each, to be freed with azulejo_points_free.
+/// - report: what the call achieved, or NULL.
+/// - O(samples) time and memory.
+/// - Errors: as azulejo_kdrt_sample.
 azulejo_status azulejo_maximal_sample(const azulejo_context *context,
                                       const azulejo_maximal_options *options,
                                       azulejo_points **out,

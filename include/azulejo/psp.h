@@ -1,6 +1,5 @@
 /*
  * PSP: maximal Poisson-disk sets on triangle meshes, also with a radius that varies.
- *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -15,36 +14,25 @@ extern "C" {
 
 /// The report of a call that samples a mesh. Times are wall times.
 typedef struct azulejo_psp_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// The iterations of projection that the call made.
-    uint32_t iterations;
-    /// The samples of the set after the call.
-    uint64_t samples;
-    /// The samples that the call added.
-    uint64_t accepted;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t iterations; ///< The iterations of projection that the call made.
+    uint64_t samples; ///< The samples of the set after the call.
+    uint64_t accepted; ///< The samples that the call added.
     /// The rays that meet the box of the mesh, which the call traced. For the rasteriser: the
     /// points of those of its tiles, at most 48 radii wide, that have triangles near them.
     uint64_t rays;
-    /// The places where rays met the mesh.
-    uint64_t hits;
+    uint64_t hits; ///< The places where rays met the mesh.
     /// The hits that were rejected because of an earlier one on the same ray.
     uint64_t restart_conflicts;
-    /// The darts thrown into uncovered surface.
-    uint64_t darts;
-    /// The hits and darts that were rejected because of other samples.
-    uint64_t conflicts;
-    /// The time of the call in seconds.
-    double seconds;
+    uint64_t darts; ///< The darts thrown into uncovered surface.
+    uint64_t conflicts; ///< The hits and darts that were rejected because of other samples.
+    double seconds; ///< The time of the call in seconds.
     /// The part of it in which patterns and, for Embree, the scene were made: in the first
     /// iteration of a set.
     double prepare_seconds;
-    /// The part of it in which hits were found.
-    double project_seconds;
-    /// The part of it in which samples were chosen among the hits.
-    double merge_seconds;
-    /// The part of it in which uncovered surface was searched for and filled.
-    double fill_seconds;
+    double project_seconds; ///< The part of it in which hits were found.
+    double merge_seconds; ///< The part of it in which samples were chosen among the hits.
+    double fill_seconds; ///< The part of it in which uncovered surface was searched for and filled.
     /// The radius of the set in units of d_max after the call: about 0.78 for a maximal set, 0 for
     /// no samples. The smallest distance is taken to be the radius, which it hardly exceeds in
     /// large sets.
@@ -69,8 +57,7 @@ typedef struct azulejo_psp_report {
 } azulejo_psp_report;
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_psp_report_init(azulejo_psp_report *report, size_t struct_size);
 
 /// If two candidates of an iteration are too close, the one that its projector faces more squarely
@@ -102,8 +89,7 @@ typedef struct azulejo_psp azulejo_psp;
 
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 typedef struct azulejo_psp_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// The number of projections of patterns by azulejo_psp_sample, in 3 directions each, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
     /// and with every radius, since a set that is only filled is made sooner and prefers no
@@ -117,14 +103,12 @@ typedef struct azulejo_psp_options {
     /// at least 64 times the spacing of floats at the largest coordinate. It has no default; with a
     /// `count` it must be 0.
     double radius;
-    /// Any number; another seed gives another set. Default 0.
-    uint64_t seed;
+    uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the
     /// thesis does, and leaves some per cent of the surface uncovered. azulejo_psp_create refuses
     /// any value but the default.
     uint32_t maximal;
-    /// An AZULEJO_PRIORITY_ constant; default squareness.
-    uint32_t priority;
+    uint32_t priority; ///< An AZULEJO_PRIORITY_ constant; default squareness.
     /// An AZULEJO_ENGINE_ constant; default Embree, or the rasteriser in a library without Embree
     /// (azulejo_has_embree).
     uint32_t engine;
@@ -135,8 +119,7 @@ typedef struct azulejo_psp_options {
     /// Called during the call; default NULL: the callback of the context, if it has one. A psp
     /// handle keeps it for all its calls.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
     /// The exact number of samples; default 0: as many as the radius gives. The report says which
     /// radius they have, and a bound of the covering radius. The set is filled only, as in
     /// progressive order. Must be 0 in azulejo_psp_create.
@@ -157,8 +140,7 @@ typedef struct azulejo_psp_options {
     /// `count`, unless there are no given samples. For azulejo_psp_sample_classes a row for each
     /// given sample, with a clearance for each class.
     const double *given_clearances;
-    /// The number of given samples; default 0.
-    size_t given_count;
+    size_t given_count; ///< The number of given samples; default 0.
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
     /// that the two sides of a thin wall are sampled as if they were far apart; triangles must be
     /// wound consistently. From -1, the default, which turns it off, to 1, with which only samples
@@ -168,24 +150,20 @@ typedef struct azulejo_psp_options {
 } azulejo_psp_options;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_psp_options_init(azulejo_psp_options *options, size_t struct_size);
 
 /// Makes an empty set on a mesh. It does not report progress.
-///
-/// mesh: kept by the handle as long as it needs it.
-///
-/// options: `iterations`, `maximal`, `count` and `order` must have their defaults: here each call
-/// says what it does.
-///
-/// out: the handle, to be freed with azulejo_psp_free.
+/// - mesh: kept by the handle as long as it needs it.
+/// - options: `iterations`, `maximal`, `count` and `order` must have their defaults: here each call
+///   says what it does.
+/// - out: the handle, to be freed with azulejo_psp_free.
 ///
 /// At most O(triangles + given samples) time.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius below 64 times the spacing of floats
-/// at the largest coordinate, and for a given sample out of range, with its index;
-/// AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples on the surface without given ones.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius below 64 times the spacing of floats
+///   at the largest coordinate, and for a given sample out of range, with its index;
+///   AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples on the surface without given
+///   ones.
 azulejo_status azulejo_psp_create(const azulejo_context *context,
                                   const azulejo_mesh *mesh,
                                   const azulejo_psp_options *options,
@@ -202,17 +180,13 @@ azulejo_status azulejo_psp_create(const azulejo_context *context,
 ///
 /// With AZULEJO_ENGINE_EMBREE the bytes depend on the version of Embree and on the instruction set:
 /// the last bits of a hit may differ, and with them which of two candidates is taken.
-///
-/// iterations: how often; 0 does nothing. A set that has been edited makes none.
-///
-/// report: what this call did, or NULL.
-///
-/// O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
-/// O(triangles * log triangles).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a `cosine` above -1; AZULEJO_ERROR_BUSY while
-/// another call uses the handle; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds
-/// what was finished, and can still grow.
+/// - iterations: how often; 0 does nothing. A set that has been edited makes none.
+/// - report: what this call did, or NULL.
+/// - O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
+///   O(triangles * log triangles).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a `cosine` above -1; AZULEJO_ERROR_BUSY while
+///   another call uses the handle; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then
+///   holds what was finished, and can still grow.
 azulejo_status azulejo_psp_advance(azulejo_psp *psp,
                                    uint32_t iterations,
                                    azulejo_psp_report *report);
@@ -221,24 +195,19 @@ azulejo_status azulejo_psp_advance(azulejo_psp *psp,
 /// every sample and throws darts into them until there is none.
 ///
 /// A set that has been edited is filled as by azulejo_psp_refill, with the seed of its options.
-///
-/// report: what this call did, or NULL.
-///
-/// O(samples + triangles) time, more for parts that darts hit rarely.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
-/// AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
+/// - report: what this call did, or NULL.
+/// - O(samples + triangles) time, more for parts that darts hit rarely.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
+///   AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 azulejo_status azulejo_psp_fill(azulejo_psp *psp, azulejo_psp_report *report);
 
 /// Copies the set in its present state; one that has been edited by rising ids. Several threads may
 /// do so at once.
-///
-/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
-///
-/// O(samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
-/// handle.
+/// - out: the samples with normals, triangles and barycentrics, to be freed with
+///   azulejo_points_free.
+/// - O(samples).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
+///   handle.
 azulejo_status azulejo_psp_points(const azulejo_psp *psp, azulejo_points **out);
 
 /// Frees the handle, but not the points taken from it. Must not be called from its own progress
@@ -261,10 +230,9 @@ void azulejo_psp_free(azulejo_psp *psp);
 /// of the first 100 those with ranks of at least 2.25 times it. It takes several times
 /// as long as a set in any order (docs/order.md), and more with many triangles per sample: some
 /// log(diagonal / radius) / log(quotient) levels visit all triangles.
-///
-/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
+/// - out: the samples with normals, triangles and barycentrics, to be freed with
+///   azulejo_points_free.
+/// - report: what the call did, or NULL.
 ///
 /// Complexity and errors: those of the three; AZULEJO_ERROR_INVALID_ARGUMENT also for a `count`
 /// that is more than floats can carry on the mesh.
@@ -294,24 +262,19 @@ azulejo_status azulejo_psp_sample(const azulejo_context *context,
 /// 100 of them, within 2 or the square of `quotient` times that instead. So a host can show the
 /// first part of each class, near parts of a scene more than far ones. The order takes about seven
 /// times the time.
-///
-/// options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
-/// `priority` and `engine` must have their defaults. `given_clearances` has a row for each given
-/// sample with a clearance for each class; NULL stands for each class's own radius.
-///
-/// classes: the radii, and where each class may stand.
-///
-/// out: the samples with normals, triangles, barycentrics and azulejo_points_classes, by which they
-/// are sorted; to be freed with azulejo_points_free.
-///
-/// report: how many samples each class has, or NULL.
+/// - options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
+///   `priority` and `engine` must have their defaults. `given_clearances` has a row for each given
+///   sample with a clearance for each class; NULL stands for each class's own radius.
+/// - classes: the radii, and where each class may stand.
+/// - out: the samples with normals, triangles, barycentrics and azulejo_points_classes, by which
+///   they are sorted; to be freed with azulejo_points_free.
+/// - report: how many samples each class has, or NULL.
 ///
 /// With two classes each sample takes about twice the time of one of azulejo_psp_sample, with eight
 /// about four times; all triangles are visited once for each class.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for `radii` above 0 below 64 times the spacing of
-/// floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples;
-/// AZULEJO_ERROR_CANCELLED by the progress callback.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for `radii` above 0 below 64 times the spacing of
+///   floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the estimated number of
+///   samples; AZULEJO_ERROR_CANCELLED by the progress callback.
 azulejo_status azulejo_psp_sample_classes(const azulejo_context *context,
                                           const azulejo_mesh *mesh,
                                           const azulejo_psp_options *options,
@@ -323,23 +286,16 @@ azulejo_status azulejo_psp_sample_classes(const azulejo_context *context,
 /// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
 /// for a box, or all four for what they have in common.
 typedef struct azulejo_region {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Must be 0.
-    uint32_t reserved;
-    /// The lowest coordinates of the box; default minus infinity.
-    double min[3];
-    /// The highest coordinates of the box, not below `min`; default infinity.
-    double max[3];
-    /// The centre of the ball, finite; default 0.
-    double centre[3];
-    /// The radius of the ball, 0 or more; default infinity.
-    double radius;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Must be 0.
+    double min[3]; ///< The lowest coordinates of the box; default minus infinity.
+    double max[3]; ///< The highest coordinates of the box, not below `min`; default infinity.
+    double centre[3]; ///< The centre of the ball, finite; default 0.
+    double radius; ///< The radius of the ball, 0 or more; default infinity.
 } azulejo_region;
 
 /// Writes the defaults: all of space. `struct_size` is sizeof *region.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_region_init(azulejo_region *region, size_t struct_size);
 
 /// Erases the samples of a set in a region. From the first edit on the set can be filled again
@@ -350,59 +306,45 @@ azulejo_status azulejo_region_init(azulejo_region *region, size_t struct_size);
 /// To undo a stroke of a brush, erase what azulejo_psp_refill added, by azulejo_psp_erase_ids, and
 /// give back what this call erased, by azulejo_psp_restore: the set is then as before, bit for bit.
 /// To redo it, erase the same region again and refill with the same seed.
-///
-/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
-/// NULL if they are not wanted.
-///
-/// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
-/// AZULEJO_ERROR_BUSY while another call uses the handle.
+/// - erased: the erased samples with their ids, by rising ids, to be freed with
+///   azulejo_points_free; NULL if they are not wanted.
+/// - O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
+///   AZULEJO_ERROR_BUSY while another call uses the handle.
 azulejo_status azulejo_psp_erase(azulejo_psp *psp,
                                  const azulejo_region *region,
                                  azulejo_points **erased);
 
 /// Erases samples by their ids.
-///
-/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
-///
-/// erased: as in azulejo_psp_erase.
-///
-/// O(samples in the cubes of 24 radii that they are in).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
-/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
+/// - ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+/// - erased: as in azulejo_psp_erase.
+/// - O(samples in the cubes of 24 radii that they are in).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
+///   AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
 azulejo_status azulejo_psp_erase_ids(azulejo_psp *psp,
                                      const uint64_t *ids,
                                      size_t count,
                                      azulejo_points **erased);
 
 /// Puts samples back that were erased from the set, with their ids and all their bytes.
-///
-/// points: from an edit of this handle; not changed, and still to be freed.
-///
-/// O(points + samples in the cubes of 24 radii around them).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
-/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
-/// another call uses the handle. Nothing is put back then.
+/// - points: from an edit of this handle; not changed, and still to be freed.
+/// - O(points + samples in the cubes of 24 radii around them).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
+///   already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
+///   another call uses the handle. Nothing is put back then.
 azulejo_status azulejo_psp_restore(azulejo_psp *psp, const azulejo_points *points);
 
 /// Adds given samples to those of the options. Samples of the set that are closer to one than its
 /// clearance are erased.
-///
-/// positions: x y z each. clearances: one for each, finite and 0 or more; NULL: the radius of the
-/// set.
-///
-/// first_id: the id of the first of them, which the others follow; NULL if it is not wanted. Those
-/// of the options have the ids from 0 on. Ids of given samples and of samples are independent.
-///
-/// erased: as in azulejo_psp_erase.
-///
-/// O(samples in the cubes of 24 radii that the clearances touch), for each.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
-/// Nothing is changed then.
+/// - positions: x y z each. clearances: one for each, finite and 0 or more; NULL: the radius of the
+///   set.
+/// - first_id: the id of the first of them, which the others follow; NULL if it is not wanted.
+///   Those of the options have the ids from 0 on. Ids of given samples and of samples are
+///   independent.
+/// - erased: as in azulejo_psp_erase.
+/// - O(samples in the cubes of 24 radii that the clearances touch), for each.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
+///   Nothing is changed then.
 azulejo_status azulejo_psp_add_given(azulejo_psp *psp,
                                      const float *positions,
                                      const double *clearances,
@@ -412,11 +354,9 @@ azulejo_status azulejo_psp_add_given(azulejo_psp *psp,
 
 /// Removes given samples by their ids: the surface that they covered is filled by the next
 /// azulejo_psp_refill.
-///
-/// O(given samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
-/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
+/// - O(given samples).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
+///   AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
 azulejo_status azulejo_psp_remove_given(azulejo_psp *psp, const uint64_t *ids, size_t count);
 
 /// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
@@ -425,17 +365,13 @@ azulejo_status azulejo_psp_remove_given(azulejo_psp *psp, const uint64_t *ids, s
 /// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
 /// to a radius outside a region that was erased, since that is how far the erased samples covered
 /// the surface.
-///
-/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
-/// if they are not wanted.
-///
-/// report: what this call did, or NULL.
-///
-/// O(surface in and around the edited regions + given samples); the first call on a handle also
-/// O(triangles).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
-/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
+/// - added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free;
+///   NULL if they are not wanted.
+/// - report: what this call did, or NULL.
+/// - O(surface in and around the edited regions + given samples); the first call on a handle also
+///   O(triangles).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
+///   AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
 azulejo_status azulejo_psp_refill(azulejo_psp *psp,
                                   uint64_t seed,
                                   azulejo_points **added,
@@ -446,19 +382,15 @@ azulejo_status azulejo_psp_refill(azulejo_psp *psp,
 /// of azulejo_psp_fill. What lies outside counts as covered. Samples stand in the region, or at
 /// most 6 radii outside it on a triangle that it touches. For many edits of one set see
 /// azulejo_psp_erase.
-///
-/// options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
-/// defaults.
-///
-/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after` are
-/// -1.
-///
-/// O(surface in the region + given samples + triangles / 16); the first call on a mesh
-/// O(triangles).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// - options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
+///   defaults.
+/// - out: the samples with normals, triangles and barycentrics, to be freed with
+///   azulejo_points_free.
+/// - report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after`
+///   are -1.
+/// - O(surface in the region + given samples + triangles / 16); the first call on a mesh
+///   O(triangles).
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_sample_region(const azulejo_context *context,
                                          const azulejo_mesh *mesh,
                                          const azulejo_psp_options *options,
@@ -472,10 +404,8 @@ azulejo_status azulejo_psp_sample_region(const azulejo_context *context,
 /// context has one thread: then on that thread only. It must be thread-safe, give the same radius
 /// for the same position, return (see "Callbacks" at the top), and must not call the library with
 /// the same context.
-///
-/// user: the radius_function_user of the options.
-///
-/// position: x y z of a place on the mesh; for a sample, the floats that are returned.
+/// - user: the radius_function_user of the options.
+/// - position: x y z of a place on the mesh; for a sample, the floats that are returned.
 ///
 /// Returns the radius in the units of the mesh, from `smallest` to `largest`.
 typedef double (*azulejo_radius_fn)(void *user, const double *position);
@@ -483,8 +413,7 @@ typedef double (*azulejo_radius_fn)(void *user, const double *position);
 /// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius_function`
 /// must be set.
 typedef struct azulejo_psp_adaptive_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well.
     uint32_t order;
@@ -498,8 +427,7 @@ typedef struct azulejo_psp_adaptive_options {
     size_t vertex_count;
     /// Gives the radius at a position. NULL, the default, if `vertex_radii` is set.
     azulejo_radius_fn radius_function;
-    /// Passed to `radius_function`.
-    void *radius_function_user;
+    void *radius_function_user; ///< Passed to `radius_function`.
     /// The smallest value of `radius_function`, above 0. Must be 0, the default, with vertex_radii.
     double smallest;
     /// The largest value of `radius_function`. Must be 0, the default, with vertex_radii.
@@ -517,12 +445,10 @@ typedef struct azulejo_psp_adaptive_options {
     /// wound consistently. From -1, the default, which turns it off, to 1, with which only samples
     /// with the same normal see each other.
     double cosine;
-    /// Any number; another seed gives another set. Default 0.
-    uint64_t seed;
+    uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
     /// Samples that stand already, around which the set is made, x y z each; NULL, the default,
     /// for none. They may lie anywhere, on the mesh or not, in any number. They are never moved,
     /// dropped or compared with each other, and are not returned: new samples are at least the
@@ -532,8 +458,7 @@ typedef struct azulejo_psp_adaptive_options {
     /// The clearance of each given sample, finite and 0 or more, in the units of the mesh; 0 has
     /// no effect. NULL, the default, only if there are none: no radius could stand for it.
     const double *given_clearances;
-    /// The number of given samples; default 0.
-    size_t given_count;
+    size_t given_count; ///< The number of given samples; default 0.
     /// Of a progressive order: every prefix of 100 samples and more covers the surface at this
     /// times its last rank, 1.02 to 1.5; smaller ones at twice that rank, or the square of the
     /// quotient times it if that is more. The smaller, the more levels there are, each of which
@@ -542,8 +467,7 @@ typedef struct azulejo_psp_adaptive_options {
 } azulejo_psp_adaptive_options;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_psp_adaptive_options_init(azulejo_psp_adaptive_options *options,
                                                  size_t struct_size);
 
@@ -567,21 +491,17 @@ azulejo_status azulejo_psp_adaptive_options_init(azulejo_psp_adaptive_options *o
 /// beside the triangles it takes several times as long as a set in any order. Where the radius
 /// jumps, samples of the larger radius that came first leave fewer on the other side than in any
 /// order.
-///
-/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
-/// order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL; iterations, rays and hits are 0. In progressive order its
-/// `radius` is 1, as the radii are those asked for, and `covering_radius` as well.
-///
-/// O(samples + triangles) time for radii that change slowly; see `slope`.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below
-/// 64 times the spacing of floats at the largest coordinate, for a given sample out of range, with
-/// its index, and if `radius_function` returns a value outside `smallest` to `largest` or changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii
-/// that change so fast that finding out what is covered would take thousands of evaluations per
-/// sample; AZULEJO_ERROR_CANCELLED.
+/// - out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
+///   order, to be freed with azulejo_points_free.
+/// - report: what the call did, or NULL; iterations, rays and hits are 0. In progressive order its
+///   `radius` is 1, as the radii are those asked for, and `covering_radius` as well.
+/// - O(samples + triangles) time for radii that change slowly; see `slope`.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or
+///   below 64 times the spacing of floats at the largest coordinate, for a given sample out of
+///   range, with its index, and if `radius_function` returns a value outside `smallest` to
+///   `largest` or changes faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of
+///   samples, or for radii that change so fast that finding out what is covered would take
+///   thousands of evaluations per sample; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_adaptive_sample(const azulejo_context *context,
                                            const azulejo_mesh *mesh,
                                            const azulejo_psp_adaptive_options *options,
@@ -594,10 +514,8 @@ azulejo_status azulejo_psp_adaptive_sample(const azulejo_context *context,
 /// call. Otherwise it is called on other threads, too, by several at once, unless the context has
 /// one thread, and must be thread-safe. It must give the same density for the same position, return
 /// (see "Callbacks" at the top), and must not call the library with the same context.
-///
-/// user: the `function_user` of the azulejo_mesh_density.
-///
-/// position: x y z of a place on the mesh.
+/// - user: the `function_user` of the azulejo_mesh_density.
+/// - position: x y z of a place on the mesh.
 ///
 /// Returns the density, finite and at least 0.
 typedef double (*azulejo_mesh_density_fn)(void *user, const double *position);
@@ -607,8 +525,7 @@ typedef double (*azulejo_mesh_density_fn)(void *user, const double *position);
 /// does not affect the density beside it. One of `vertex_values`, `function` and `image` must be
 /// set, and one of `radius` and `count`.
 typedef struct azulejo_mesh_density {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// 1: `function` is called at the vertices only, and interpolated on the triangles; nothing
     /// need be known of it. Default 0. Must be 0 without a function.
     uint32_t at_vertices;
@@ -617,10 +534,8 @@ typedef struct azulejo_mesh_density {
     const float *vertex_values;
     /// The number of vertex_values: that of the vertices of the mesh. Default 0.
     size_t vertex_count;
-    /// Gives the density at a position. Default NULL.
-    azulejo_mesh_density_fn function;
-    /// Passed to `function`.
-    void *function_user;
+    azulejo_mesh_density_fn function; ///< Gives the density at a position. Default NULL.
+    void *function_user; ///< Passed to `function`.
     /// The largest value of `function`, above 0. Must be 0, the default, without a function, and
     /// with `at_vertices`.
     double largest;
@@ -637,8 +552,7 @@ typedef struct azulejo_mesh_density {
     /// The number of pixels in a row, which is as long as u goes from 0 to 1; at least 1. Must be
     /// 0, the default, without an image.
     size_t width;
-    /// The number of rows, at least 1. Must be 0, the default, without an image.
-    size_t height;
+    size_t height; ///< The number of rows, at least 1. Must be 0, the default, without an image.
     /// Texture coordinates, u v each, finite and at most 1e6 in absolute value: one for each
     /// vertex, or one for each corner of each triangle, three times as many as there are triangles.
     /// NULL, the default, without an image.
@@ -648,8 +562,7 @@ typedef struct azulejo_mesh_density {
     size_t texture_count;
     /// 1: `texture` is by corners, so that those along a seam differ. Default 0: by vertices.
     uint32_t by_corners;
-    /// Must be 0.
-    uint32_t reserved;
+    uint32_t reserved; ///< Must be 0.
     /// The radius at density 1, above 0: a maximal set of this radius has density 1. The radius at
     /// a density d is this over sqrt(d). 0, the default, with a count.
     double radius;
@@ -661,8 +574,7 @@ typedef struct azulejo_mesh_density {
 } azulejo_mesh_density;
 
 /// Writes the defaults. `struct_size` is sizeof *density.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_mesh_density_init(azulejo_mesh_density *density, size_t struct_size);
 
 /// Makes a maximal set of samples on a mesh with a density: azulejo_psp_adaptive_sample, where the
@@ -678,22 +590,16 @@ azulejo_status azulejo_mesh_density_init(azulejo_mesh_density *density, size_t s
 /// prefixes, bit for bit but for the radii, which are those of each set: levels of detail nest. A
 /// set with a radius shares all samples with ranks of at least `quotient` times that radius, of the
 /// first 100 those with ranks of at least 2.25 times it.
-///
-/// options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must be
-/// NULL.
-///
-/// density: the density; used during the call only.
-///
-/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
-/// order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL; iterations, rays and hits are 0.
-///
-/// O(samples + triangles) time for densities that change slowly.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative, not finite, or 0
-/// everywhere, above `largest`, or change faster than `slope`; AZULEJO_ERROR_TOO_LARGE as
-/// azulejo_psp_adaptive_sample; AZULEJO_ERROR_CANCELLED.
+/// - options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must
+///   be NULL.
+/// - density: the density; used during the call only.
+/// - out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
+///   order, to be freed with azulejo_points_free.
+/// - report: what the call did, or NULL; iterations, rays and hits are 0.
+/// - O(samples + triangles) time for densities that change slowly.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative, not finite, or 0
+///   everywhere, above `largest`, or change faster than `slope`; AZULEJO_ERROR_TOO_LARGE as
+///   azulejo_psp_adaptive_sample; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_psp_adaptive_with_density(const azulejo_context *context,
                                                  const azulejo_mesh *mesh,
                                                  const azulejo_psp_adaptive_options *options,

@@ -1,6 +1,5 @@
 /*
  * Thinning: points of a cloud that are far from each other.
- *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -19,23 +18,18 @@ extern "C" {
 typedef struct azulejo_selection azulejo_selection;
 
 /// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
-///
-///   any order, a radius: in the order of the cloud, each point that no selected one before it is
-///     nearer to than the radius;
-///   any order, a count (and a radius): the points that the progressive order would select, in the
-///     order of the cloud;
-///   progressive order: each next point is the farthest from those before, the lowest index on
-///     ties, until there are `count` points, or no point is left that is at least `radius` from
-///     all of them; all points if both are 0.
+/// -   any order, a radius: in the order of the cloud, each point that no selected one before it is
+///       nearer to than the radius;   any order, a count (and a radius): the points that the
+///   progressive order would select, in the     order of the cloud;   progressive order: each next
+///   point is the farthest from those before, the lowest index on     ties, until there are `count`
+///   points, or no point is left that is at least `radius` from     all of them; all points if both
+///   are 0.
 ///
 /// Any order with neither is refused.
 typedef struct azulejo_thin_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// An AZULEJO_ORDER_ constant; default any.
-    uint32_t order;
-    /// The smallest distance between two selected points, above 0; default 0: none.
-    double radius;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
+    double radius; ///< The smallest distance between two selected points, above 0; default 0: none.
     /// The number of points to select. A cloud that has fewer is selected whole. Default 0: none.
     size_t count;
     /// Any number. It chooses the first point of the progressive order, on which the others depend;
@@ -43,33 +37,26 @@ typedef struct azulejo_thin_options {
     uint64_t seed;
     /// Called during the call; default NULL: the callback of the context, if it has one.
     azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    void *progress_user; ///< Passed to the progress callback.
 } azulejo_thin_options;
 
 /// The report of azulejo_thin.
 typedef struct azulejo_thin_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
-    /// The number of selected points.
-    uint64_t samples;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t samples; ///< The number of selected points.
     /// No two selected points are closer: the radius by which they were selected, otherwise the
     /// smallest distance of two. Infinite for less than two points.
     double radius;
-    /// Wall time in seconds.
-    double seconds;
+    double seconds; ///< Wall time in seconds.
 } azulejo_thin_report;
 
 /// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_thin_options_init(azulejo_thin_options *options, size_t struct_size);
 
 /// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 azulejo_status azulejo_thin_report_init(azulejo_thin_report *report, size_t struct_size);
 
 /// Selects points of a cloud that are far from each other and near to all the others.
@@ -79,22 +66,16 @@ azulejo_status azulejo_thin_report_init(azulejo_thin_report *report, size_t stru
 /// the selected ones than any two of them are from each other. In the progressive order this holds
 /// for the first points of the selection as well, for any number of them. Distances are computed in
 /// double arithmetic from the floats, without tolerance.
-///
-/// positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
-/// coincide: by radius one of them is selected, in the progressive order they come last.
-///
-/// dimension: the number of coordinates of a point, 2 or 3.
-///
-/// out: the selected points, to be freed with azulejo_selection_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
-/// made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of the
-/// context share the sorting of the points; the selection itself runs on one.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for a point that is not finite with its index;
-/// AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// - positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
+///   coincide: by radius one of them is selected, in the progressive order they come last.
+/// - dimension: the number of coordinates of a point, 2 or 3.
+/// - out: the selected points, to be freed with azulejo_selection_free.
+/// - report: what the call did, or NULL.
+/// - O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in
+///   clouds made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of
+///   the context share the sorting of the points; the selection itself runs on one.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for a point that is not finite with its index;
+///   AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 azulejo_status azulejo_thin(const azulejo_context *context,
                             const azulejo_thin_options *options,
                             const float *positions,

@@ -102,6 +102,9 @@ fn fields(header: &str, name: &str) -> Vec<Field> {
             comment += &format!("{text} ");
             continue;
         }
+        // The comment is above the field or behind it.
+        let (line, behind) = line.split_once(" ///< ").unwrap_or((line, ""));
+        comment += behind;
         let (kind, declared) = line.trim_end_matches(';').rsplit_once([' ', '*']).expect("a declaration");
         let (name, elements) = declared.split_once('[').map_or((declared, 1), |(name, rest)| {
             (name, rest.trim_end_matches(']').parse().expect("a number of elements"))
@@ -163,7 +166,7 @@ fn written(name: &str) -> Vec<u8> {
 
 /// The value of a constant of the header.
 fn constant(header: &str, name: &str) -> Option<f64> {
-    header.lines().find_map(|line| line.strip_prefix(&format!("#define {name} "))?.parse().ok())
+    header.lines().find_map(|line| line.strip_prefix(&format!("#define {name} "))?.split(' ').next()?.parse().ok())
 }
 
 /// The numbers that a default of the page stands for in C.

@@ -60,7 +60,7 @@ fn the_committed_headers_are_the_generated_ones() {
         declared += topics.iter().map(|topic| topic.matches("azulejo_status azulejo_").count()).sum::<usize>();
         let includes =
             if header.name == "base" { "#include <stddef.h>\n#include <stdint.h>\n" } else { "#include \"base.h\"\n" };
-        let page = format!("/*\n * {}\n *\n * {GENERATED}\n */\n", header.page);
+        let page = format!("/*\n * {}\n * {GENERATED}\n */\n", header.page);
         let linkage = |brace| format!("#ifdef __cplusplus\n{brace}\n#endif\n");
         let body = [&linkage("extern \"C\" {"), &topics.join("\n"), &linkage("}")].map(String::as_str).join("\n");
         let guard = format!("AZULEJO_{}_H", header.name.to_uppercase());
@@ -97,7 +97,60 @@ fn topic(crate_root: &Path, source: &str) -> String {
         true => format!("{line}\n"),
         false => format!("{}\n", line.replace("struct azulejo_", "azulejo_")),
     };
-    generated.lines().map(untagged).collect()
+    laid_out(&generated.lines().map(untagged).collect::<String>())
+}
+
+/// What cbindgen makes, with its comments in fewer lines: one of a line stands behind the constant or the field that it
+/// is of, and what is said of arguments is a list without empty lines.
+fn laid_out(generated: &str) -> String {
+    let (mut laid_out, mut comment) = (String::new(), Vec::new());
+    for line in generated.lines() {
+        if let Some(text) = line.trim_start().strip_prefix("///") {
+            comment.push(text.strip_prefix(' ').unwrap_or(text));
+            continue;
+        }
+        let indent = &line[..line.len() - line.trim_start().len()];
+        let is_item = !indent.is_empty() || line.starts_with("#define ");
+        match comment[..] {
+            [text] if is_item && line.len() + " ///< ".len() + text.chars().count() <= COLUMNS => {
+                laid_out += &format!("{line} ///< {text}\n");
+            }
+            _ => {
+                let above = list(&comment, COLUMNS - indent.len() - "/// ".len());
+                laid_out.extend(above.iter().map(|text| format!("{}\n", format!("{indent}/// {text}").trim_end())));
+                laid_out += &format!("{line}\n");
+            }
+        }
+        comment.clear();
+    }
+    laid_out
+}
+
+/// The lines of a comment. Paragraphs on an argument ("name: …"), on complexity and on errors become items of a list.
+fn list(comment: &[&str], columns: usize) -> Vec<String> {
+    let mut lines = Vec::<String>::new();
+    for paragraph in comment.split(|line| line.is_empty()) {
+        let is_name = |text: &str| text.chars().all(|c| c.is_ascii_lowercase() || "_, ".contains(c));
+        let is_item = paragraph.first().is_some_and(|line| {
+            line.starts_with("O(") || line.split_once(": ").is_some_and(|(name, _)| is_name(name) || name == "Errors")
+        });
+        if !is_item {
+            // A list ends at an empty line.
+            lines.extend((!lines.is_empty()).then(String::new));
+            lines.extend(paragraph.iter().map(|&line| line.to_owned()));
+            continue;
+        }
+        lines.push("-".to_owned());
+        for word in paragraph.iter().flat_map(|line| line.split(' ')) {
+            let line = lines.last_mut().unwrap();
+            if line.chars().count() + 1 + word.chars().count() <= columns {
+                *line += &format!(" {word}");
+            } else {
+                lines.push(format!("  {word}"));
+            }
+        }
+    }
+    lines
 }
 
 fn check(path: &Path, generated: &str) {
