@@ -12,31 +12,29 @@
 extern "C" {
 #endif
 
-/// Points of a cloud that azulejo_thin selected. Immutable: several threads may read it at once.
-/// Its arrays have one entry per selected point, in the same order, and are valid until
-/// azulejo_selection_free.
+/// Points of a cloud that azulejo_thin selected. Its arrays have one entry per selected point, in
+/// the same order.
 typedef struct azulejo_selection azulejo_selection;
 
 /// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
-/// -   any order, a radius: in the order of the cloud, each point that no selected one before it is
-///       nearer to than the radius;   any order, a count (and a radius): the points that the
-///   progressive order would select, in the     order of the cloud;   progressive order: each next
-///   point is the farthest from those before, the lowest index on     ties, until there are `count`
-///   points, or no point is left that is at least `radius` from     all of them; all points if both
-///   are 0.
+/// - any order, a radius: in the order of the cloud, each point that no selected one before it is
+///   nearer to than the radius;
+/// - any order, a count (and a radius): the points that the progressive order would select, in the
+///   order of the cloud;
+/// - progressive order: each next point is the farthest from those before, the lowest index on
+///   ties, until there are `count` points, or no point is left that is at least `radius` from all
+///   of them; all points if both are 0.
 ///
 /// Any order with neither is refused.
 typedef struct azulejo_thin_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
     double radius; ///< The smallest distance between two selected points, above 0; default 0: none.
-    /// The number of points to select. A cloud that has fewer is selected whole. Default 0: none.
+    /// The number of points; default 0: none. A cloud that has fewer is selected whole.
     size_t count;
-    /// Any number. It chooses the first point of the progressive order, on which the others depend;
-    /// a selection in any order without a count uses no random numbers. Default 0.
+    /// It chooses the first point of the progressive order, on which the others depend; default 0.
     uint64_t seed;
-    /// Called during the call; default NULL: the callback of the context, if it has one.
-    azulejo_progress_fn progress;
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
 } azulejo_thin_options;
 
@@ -51,31 +49,24 @@ typedef struct azulejo_thin_report {
     double seconds; ///< Wall time in seconds.
 } azulejo_thin_report;
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 azulejo_status azulejo_thin_options_init(azulejo_thin_options *options, size_t struct_size);
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 azulejo_status azulejo_thin_report_init(azulejo_thin_report *report, size_t struct_size);
 
-/// Selects points of a cloud that are far from each other and near to all the others.
-///
-/// With a radius, the selected points are at least the radius apart; without a count, every other
-/// point is nearer than the radius to one of them. Without a radius, no other point is farther from
-/// the selected ones than any two of them are from each other. In the progressive order this holds
-/// for the first points of the selection as well, for any number of them. Distances are computed in
+/// Selects points of a cloud that are far from each other and near to all the others. With a
+/// radius, the selected points are at least the radius apart; without a count, every other point is
+/// nearer than the radius to one of them. Without a radius, no other point is farther from the
+/// selected ones than any two of them are from each other. In the progressive order this holds for
+/// the first points of the selection as well, for any number of them. Distances are computed in
 /// double arithmetic from the floats, without tolerance.
-/// - positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
-///   coincide: by radius one of them is selected, in the progressive order they come last.
+/// - positions: the points, x y or x y z each; at most 2^32 - 1. They may coincide: by radius one
+///   of them is selected, in the progressive order they come last.
 /// - dimension: the number of coordinates of a point, 2 or 3.
-/// - out: the selected points, to be freed with azulejo_selection_free.
-/// - report: what the call did, or NULL.
 /// - O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in
-///   clouds made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of
-///   the context share the sorting of the points; the selection itself runs on one.
-/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for a point that is not finite with its index;
-///   AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+///   clouds made for it, O(count * selected). Up to 150 bytes of memory per point. Threads share
+///   the sorting of the points; the selection itself runs on one.
 azulejo_status azulejo_thin(const azulejo_context *context,
                             const azulejo_thin_options *options,
                             const float *positions,
@@ -84,20 +75,20 @@ azulejo_status azulejo_thin(const azulejo_context *context,
                             azulejo_selection **out,
                             azulejo_thin_report *report);
 
-/// The number of selected points; 0 for NULL.
+/// The number of selected points.
 size_t azulejo_selection_count(const azulejo_selection *selection);
 
 /// The indices of the selected points in the cloud: ascending in any order, in the order of
-/// selection in the progressive one. NULL for NULL and for an empty selection.
+/// selection in the progressive one.
 const uint32_t *azulejo_selection_indices(const azulejo_selection *selection);
 
 /// The ranks of the points of a progressive selection: the distance of each from the nearest of
 /// those before it, rounded down to a float. They never rise; the first is infinite, those of
 /// points that coincide with one before are 0. All points with a rank of at least r are at least r
-/// apart. NULL for NULL, an empty selection and AZULEJO_ORDER_ANY.
+/// apart. NULL for AZULEJO_ORDER_ANY.
 const float *azulejo_selection_ranks(const azulejo_selection *selection);
 
-/// Frees the selection with its arrays. NULL is allowed.
+/// Frees the selection with its arrays.
 void azulejo_selection_free(azulejo_selection *selection);
 
 #ifdef __cplusplus

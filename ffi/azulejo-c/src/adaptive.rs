@@ -18,80 +18,59 @@ use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
-/// Gives the radius at a position.
-///
-/// It is called on other threads than the one that made the call, by several at once, unless the
-/// context has one thread: then on that thread only. It must be thread-safe, give the same radius
-/// for the same position, return (see "Callbacks" at the top), and must not call the library with
-/// the same context.
+/// Gives the radius at a position, from `smallest` to `largest`. See "Callbacks" in azulejo.h.
 ///
 /// user: the radius_function_user of the options.
 ///
 /// position: x y z of a place on the mesh; for a sample, the floats that are returned.
-///
-/// Returns the radius in the units of the mesh, from `smallest` to `largest`.
 pub type azulejo_radius_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// Options of azulejo_psp_adaptive_sample. Either `vertex_radii` or `radius_function`
-/// must be set.
+/// Options of azulejo_psp_adaptive_sample, which requires either `vertex_radii` or
+/// `radius_function`, and of azulejo_psp_adaptive_with_density.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_psp_adaptive_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well.
+    /// As in azulejo_psp_options; default any.
     pub order: u32,
-    /// A radius for each vertex of the mesh, above 0, in its units; used during the call only. At
-    /// the barycentrics u v of a sample on the triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in
-    /// double arithmetic. It may change arbitrarily steeply. NULL, the default, if
-    /// `radius_function` is set.
+    /// A radius for each vertex of the mesh, above 0. At the barycentrics u v of a sample on the
+    /// triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in double arithmetic. It may change
+    /// arbitrarily steeply. NULL, the default, if `radius_function` is set.
     pub vertex_radii: *const f32,
-    /// The number of vertex_radii: that of the vertices of the mesh. Must be 0, the default, if
-    /// `radius_function` is set.
+    /// That of the vertices of the mesh. Must be 0, the default, if `radius_function` is set.
     pub vertex_count: usize,
-    /// Gives the radius at a position. NULL, the default, if `vertex_radii` is set.
+    /// NULL, the default, if `vertex_radii` is set.
     pub radius_function: azulejo_radius_fn,
     /// Passed to `radius_function`.
     pub radius_function_user: *mut c_void,
     /// The smallest value of `radius_function`, above 0. Must be 0, the default, with vertex_radii.
     pub smallest: f64,
-    /// The largest value of `radius_function`. Must be 0, the default, with vertex_radii.
+    /// Its largest value. Must be 0, the default, with vertex_radii.
     pub largest: f64,
     /// The most by which `radius_function` changes per unit of distance between two places of a
     /// triangle; 0, the default: it is constant on each triangle. Coverage is proved with it, so it
     /// must hold: a violation that is detected makes the call fail, one that is not can leave gaps.
     /// From about 1 on the work grows with its square, and from about 30 on it may be refused as
-    /// too much; for images and other data with edges vertex_radii, which carry their own slopes,
-    /// are the better choice. At most `smallest` / 24 per spacing of floats at the largest
-    /// coordinate of the mesh. Must be 0 with vertex_radii.
+    /// too much: for images and other data with edges vertex_radii are the better choice. At most
+    /// `smallest` / 24 per float spacing. Must be 0 with vertex_radii.
     pub slope: f64,
-    /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
-    /// that the two sides of a thin wall are sampled as if they were far apart; triangles must be
-    /// wound consistently. From -1, the default, which turns it off, to 1, with which only samples
-    /// with the same normal see each other.
+    /// As in azulejo_psp_options, from -1, the default, to 1.
     pub cosine: f64,
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// Samples that stand already, around which the set is made, x y z each; NULL, the default,
-    /// for none. They may lie anywhere, on the mesh or not, in any number. They are never moved,
-    /// dropped or compared with each other, and are not returned: new samples are at least the
-    /// clearance from each of them, and every place of the surface is within the radius of a new
-    /// sample or within the clearance of a given one. They act on all sides of a thin wall.
+    /// As in azulejo_psp_options; default NULL: none. They act on all sides of a thin wall.
     pub given_positions: *const f32,
-    /// The clearance of each given sample, finite and 0 or more, in the units of the mesh; 0 has
-    /// no effect. NULL, the default, only if there are none: no radius could stand for it.
+    /// The clearance of each given sample, 0 or more; 0 has no effect. NULL, the default, only if
+    /// there are none: no radius could stand for it.
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
-    /// Of a progressive order: every prefix of 100 samples and more covers the surface at this
-    /// times its last rank, 1.02 to 1.5; smaller ones at twice that rank, or the square of the
-    /// quotient times it if that is more. The smaller, the more levels there are, each of which
-    /// takes time. Default 0: 2^(1/8).
+    /// As in azulejo_psp_options, 1.02 to 1.5. Default 0: 2^(1/8).
     pub quotient: f64,
 }
 
@@ -131,9 +110,7 @@ impl Callback {
     }
 }
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
     options: *mut azulejo_psp_adaptive_options,
@@ -146,38 +123,31 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 /// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
 /// Embree is not used.
 ///
-/// Conflict-free: two samples are no closer than the mean of their radii, in double arithmetic on
-/// the returned positions and radii. Maximal: no place of the surface is farther from every sample
-/// than the mean of the two radii, up to 6 times the spacing of floats at the largest coordinate
-/// and the change of the radius over that length; with vertex_radii, also up to 2^-22 of the
-/// largest difference of two radii on a triangle. Where the radius changes little from sample to
-/// sample there are about 0.6966 / radius^2 samples per unit of area. Radii above four times the
-/// diagonal of the mesh's box are reduced to that, those of vertices before interpolation.
+/// Conflict-free: two samples are no closer than the mean of their radii. Maximal: no place of the
+/// surface is farther from every sample than the mean of the two radii, up to 6 float spacings and
+/// the change of the radius over that length; with vertex_radii, also up to 2^-22 of the largest
+/// difference of two radii on a triangle. Where the radius changes little from sample to sample
+/// there are about 0.6966 / radius^2 samples per unit of area. Radii above four times the diagonal
+/// of the mesh's box are reduced to that, those of vertices before interpolation.
 ///
 /// In progressive order the samples are sorted coarse to fine. Ranks are what all radii are
 /// multiplied by: with its radii times the i-th rank the prefix of i samples is conflict-free, and
-/// with all radii times `quotient` times that rank it is maximal (see there for i below 100). Ranks
-/// never rise, and the last one is 1 or a little more. `vertex_radii` and `radius_function` keep
-/// their meaning: the whole set is maximal at them. Some log(diagonal / smallest radius) /
+/// with all radii times `quotient` times that rank it is maximal (for i below 100 see
+/// azulejo_points_ranks). The last rank is 1 or a little more. log(diagonal / smallest radius) /
 /// log(quotient) levels visit all triangles and call `radius_function`; where radii are small
 /// beside the triangles it takes several times as long as a set in any order. Where the radius
-/// jumps, samples of the larger radius that came first leave fewer on the other side than in any
-/// order.
+/// jumps, samples of the larger radius, which come first, leave fewer on the other side.
 ///
-/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
-/// order, to be freed with azulejo_points_free.
+/// out: the samples with normals, triangles, barycentrics and radii.
 ///
-/// report: what the call did, or NULL; iterations, rays and hits are 0. In progressive order its
-/// `radius` is 1, as the radii are those asked for, and `covering_radius` as well.
+/// report: no iterations, rays and hits; in progressive order both radii are 1.
 ///
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for radii that are not positive and finite or below
-/// 64 times the spacing of floats at the largest coordinate, for a given sample out of range, with
-/// its index, and if `radius_function` returns a value outside `smallest` to `largest` or changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE with the estimated number of samples, or for radii
-/// that change so fast that finding out what is covered would take thousands of evaluations per
-/// sample; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for radii below 64 float spacings, and if
+/// `radius_function` returns a value outside `smallest` to `largest` or changes faster than
+/// `slope`; AZULEJO_ERROR_TOO_LARGE also for radii that change so fast that coverage would take
+/// thousands of evaluations per sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
     context: *const azulejo_context,

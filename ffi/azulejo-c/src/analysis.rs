@@ -11,16 +11,8 @@ use crate::mesh::{SurfaceSet, azulejo_mesh};
 use crate::progress::Watch;
 use crate::status::{Failure, azulejo_status};
 
-/// The smallest distance between two points of the plane, in double arithmetic; on a periodic
-/// domain around the torus.
-///
-/// set: the points.
-///
-/// out: the distance in the units of the domain; infinite for fewer than two points.
-///
-/// O(count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// The smallest distance between two points of the plane, in double arithmetic, on a periodic
+/// domain around the torus; infinite for fewer than two points. O(count) time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     context: *const azulejo_context,
@@ -36,17 +28,9 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
     })
 }
 
-/// The covering radius of points of the plane; on a periodic domain around the torus. The set is
-/// maximal for every radius that is not smaller.
-///
-/// set: the points.
-///
-/// out: the covering radius in the units of the domain, too small by less than a billionth of it;
-/// infinite for no point.
-///
-/// Found exactly, by subdivision of the domain: O(count * log count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// The covering radius of points of the plane, on a periodic domain around the torus, too small by
+/// less than a billionth of it; infinite for no point. The set is maximal for every radius that is
+/// not smaller. Found exactly, by subdivision of the domain: O(count * log count) time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
     context: *const azulejo_context,
@@ -62,15 +46,8 @@ pub unsafe extern "C" fn azulejo_plane_covering_radius(
     })
 }
 
-/// The smallest straight distance between two points in space, in double arithmetic.
-///
-/// positions: the points, x y z each, finite; `count` of them.
-///
-/// out: the distance in the units of the positions; infinite for fewer than two points.
-///
-/// O(count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// The smallest straight distance between two points in space, x y z each, in double arithmetic;
+/// infinite for fewer than two points. O(count) time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_smallest_distance(
     context: *const azulejo_context,
@@ -90,24 +67,15 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
 }
 
 /// The fraction of a surface that is farther than a radius from every sample, estimated by random
-/// probes.
+/// probes: 0 to 1; 0 if the mask of the mesh leaves out everything. Probes do not prove coverage,
+/// azulejo_mesh_coverage does. O(probes + count) time.
 ///
-/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
+/// positions: the samples, x y z each. They need not lie on the mesh.
 ///
-/// radius: above 0, in the units of the mesh.
+/// radius: above 0.
 ///
 /// probes: the number of random places of the surface that are examined, at least 1, uniform over
 /// its area.
-///
-/// seed: selects the places.
-///
-/// out: the fraction of the probes that are uncovered, 0 to 1; 0 if the mask of the mesh leaves out
-/// everything.
-///
-/// O(probes + count) time for evenly spread samples. Probes do not prove coverage,
-/// azulejo_mesh_coverage does.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     context: *const azulejo_context,
@@ -133,8 +101,8 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
-/// The coverage of a domain or a surface by disks of a radius: the result of
-/// azulejo_plane_coverage and azulejo_mesh_coverage.
+/// The coverage of a domain or a surface by disks of a radius, from azulejo_plane_coverage and
+/// azulejo_mesh_coverage.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_coverage_report {
@@ -142,9 +110,9 @@ pub struct azulejo_coverage_report {
     pub struct_size: u32,
     /// Always 0.
     pub reserved: u32,
-    /// The covering radius, in the units of the domain or mesh; infinite for no sample.
+    /// The covering radius; infinite for no sample.
     pub covering_radius: f64,
-    /// The number of gaps: 0 if the set is maximal for the radius, up to the rounding of floats.
+    /// The number of gaps: 0 if the set is maximal for the radius.
     pub gaps: u64,
 }
 
@@ -156,9 +124,7 @@ impl From<coverage::Coverage> for azulejo_coverage_report {
     }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_coverage_report_init(
     report: *mut azulejo_coverage_report,
@@ -169,21 +135,16 @@ pub unsafe extern "C" fn azulejo_coverage_report_init(
 }
 
 /// Counts the gaps that points of the plane leave: the connected parts of the domain, or of the
-/// torus, that are farther than a radius from all points, by more than 6 times the spacing of
-/// floats at the largest coordinate of the domain. With no gap the set is maximal for the radius,
-/// as "Terms" has it, and all maximal sets of this library have none.
+/// torus, that are farther than a radius from all points, by more than 6 float spacings. With no
+/// gap the set is maximal for the radius, and all maximal sets of this library have none.
 ///
-/// set: the points.
-///
-/// radius: above 0, in the units of the domain.
+/// radius: above 0.
 ///
 /// out: the covering radius, as azulejo_plane_covering_radius finds it, and the number of gaps.
 /// Every gap deeper than a millionth of the mean spacing is found, however small, and the deepest
 /// in any case. An empty set has one gap.
 ///
-/// Found exactly, by the Voronoi diagram: O(count * log count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// O(count * log count) time: they are found exactly, by the Voronoi diagram.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_coverage(
     context: *const azulejo_context,
@@ -202,25 +163,22 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 }
 
 /// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
-/// farther than a radius from all samples, by more than 6 times the spacing of floats at the
-/// largest coordinate of the mesh, each within half of the radius of another place of its group.
-/// With no gap the set is maximal for the radius, as "Terms" has it, and all maximal sets of this
-/// library have none.
+/// farther than a radius from all samples, by more than 6 float spacings, each within half of the
+/// radius of another place of its group. With no gap the set is maximal for the radius, and all
+/// maximal sets of this library have none.
 ///
-/// positions: the samples, x y z each, finite; `count` of them. They need not lie on the mesh.
+/// positions: the samples, x y z each. They need not lie on the mesh.
 ///
-/// radius: above 0, in the units of the mesh.
+/// radius: above 0.
 ///
 /// out: the covering radius, too small by less than a billionth of it, and the number of gaps.
 /// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
-/// case. An empty set has an infinite radius and at least one gap; a mesh without area, or whose
-/// mask leaves out everything, has 0 and 0.
+/// case. An empty set has an infinite radius and at least one gap; no area has 0 and 0.
 ///
-/// Found exactly, by subdivision of the triangles: O((count + triangles) * log count) time for
-/// evenly spread samples, and about 100 pieces per radius^2 of uncovered area.
+/// O((count + triangles) * log count) time, and about 100 pieces per radius^2 of uncovered area:
+/// they are found exactly, by subdivision of the triangles.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE, also if more than about 600,000
-/// * radius^2 of the area is uncovered; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_TOO_LARGE also if more than about 600,000 * radius^2 is uncovered.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_coverage(
     context: *const azulejo_context,

@@ -15,11 +15,11 @@ const _: () = assert!(AZULEJO_MAX_CLASSES as usize == Classes::MOST);
 
 /// Classes of samples that stand in each other's way: the matrix of their distances. Samples of
 /// classes i and j are at least r_ij apart, and no class can take another sample: for each class i
-/// every place is within r_ij of some sample of some class j.
+/// every place is within r_ij of some sample of some class j, up to the rounding of maximal sets.
 ///
 /// Classes of larger own radii r_ii come first, those of smaller ones fill what these leave them;
-/// classes of equal radii are treated alike. So two radii that are nearly equal give other shares
-/// than two equal ones: of own radii 1 and 0.9 the first class has its full density.
+/// classes of equal radii are filled together. So shares jump where two radii become equal: of own
+/// radii 1 and 0.9 the first class has its full density.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_classes {
@@ -27,16 +27,15 @@ pub struct azulejo_classes {
     pub struct_size: u32,
     /// The number of classes, 1 to AZULEJO_MAX_CLASSES. Required.
     pub count: u32,
-    /// count * count radii, row by row, in the units of the domain or mesh; symmetric, finite, 0 or
-    /// more, and above 0 on the diagonal. Two classes whose radius is 0 ignore each other.
-    /// azulejo_classes_radii makes such a matrix. Required; read during the call only.
+    /// count * count radii, row by row; symmetric, 0 or more, and above 0 on the diagonal.
+    /// Required. Two classes whose radius is 0 ignore each other. azulejo_classes_radii makes one.
     pub radii: *const f64,
-    /// On meshes, where each class may stand: for each triangle a number with a bit for each
-    /// class, the lowest for class 0. A class has no samples, and needs no cover, where its bit is
-    /// 0; other bits are ignored. If the mesh has a mask, both must allow a sample. NULL, the
-    /// default: all classes may stand everywhere. Read during the call only.
+    /// On meshes, where each class may stand: for each triangle a number with a bit for each class,
+    /// the lowest for class 0. A class has no samples, and needs no cover, where its bit is 0;
+    /// other bits are ignored. If the mesh has a mask, both must allow a sample. NULL, the default:
+    /// all classes may stand everywhere.
     pub masks: *const u32,
-    /// The number of masks: that of the mesh's triangles, or 0 if there are none. Default 0.
+    /// That of the mesh's triangles, or 0, the default, for none.
     pub mask_count: usize,
 }
 
@@ -47,9 +46,7 @@ growing!(azulejo_classes requires radii {
     mask_count: 0,
 });
 
-/// Writes the defaults. `struct_size` is sizeof *classes.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_classes_init(classes: *mut azulejo_classes, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -116,9 +113,7 @@ growing!(azulejo_classes_report requires samples {
     seconds: 0.0,
 });
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_classes_report_init(
     report: *mut azulejo_classes_report,
@@ -149,21 +144,19 @@ fn checked_count(count: u32) -> Result<usize, Failure> {
     Err(Failure::invalid("count", format!("{count} classes; there are 1 to {AZULEJO_MAX_CLASSES}")))
 }
 
-/// Makes a matrix of radii from those of each class alone, as in Wei, "Multi-class blue noise
-/// sampling", 2010: two classes keep the distance that a set of all samples of both, and of all
-/// classes of larger radii, would have.
+/// Makes a matrix of radii from those of each class alone (Wei, "Multi-class blue noise sampling",
+/// 2010): two classes keep the distance that a set of all samples of both, and of all classes of
+/// larger radii, would have.
 ///
-/// own: for each class the distance of its samples, positive and finite; `count` numbers.
+/// own: for each class the distance of its samples, above 0.
 ///
 /// count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
 ///
-/// factor: what the radii of two different classes are multiplied by, finite and 0 or more; 1 for
-/// Wei's. Smaller factors leave each class nearer to the density that it has alone, and let samples
-/// of two classes come nearer to each other.
+/// factor: multiplies the radii of two different classes, 0 or more; 1 for Wei's. Smaller factors
+/// leave each class nearer to the density that it has alone, and samples of two classes come nearer
+/// to each other.
 ///
 /// out: count * count numbers, row by row.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; then out is not written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_classes_radii(
     own: *const f64,

@@ -36,18 +36,13 @@ impl azulejo_context {
 
 /// Makes a context and starts its threads.
 ///
-/// num_threads: the number of threads, 1 to 4096, or 0 for one per core. With 1 no thread is
-/// started: all work happens on the calling thread.
+/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is started: all work happens on
+/// the calling thread.
 ///
-/// out: the context, to be freed with azulejo_context_free.
-///
-/// Embree's scenes are built by as many threads, but not more than there are cores, and by none of
-/// TBB's. Bounds that the program sets for TBB stay as they are. Embree, however, has one bound for
-/// the whole process, the largest of its devices, and a scene of the library has none: where a
-/// device of the program has one (threads=), it is suspended while a mesh exists on which a set has
-/// made iterations with AZULEJO_ENGINE_EMBREE (or a handle of such a set).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_THREADS if the threads cannot be started.
+/// Embree's scenes are built by as many threads, but not more than there are cores. A bound on
+/// threads that the program has set for a device of its own (threads=) is suspended while a mesh
+/// exists on which a set has made iterations with AZULEJO_ENGINE_EMBREE, as Embree has one bound
+/// for the whole process.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_context_create(num_threads: u32, out: *mut *mut azulejo_context) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -57,22 +52,13 @@ pub unsafe extern "C" fn azulejo_context_create(num_threads: u32, out: *mut *mut
     })
 }
 
-/// Makes a context that shares the threads of another one and adds a progress callback. The
-/// callback is used by every call that is made with this context, or with a psp handle made with
-/// it, and whose options have no callback of their own. So calls without options, such as the
-/// analysis, can report progress and be cancelled.
+/// Makes a context that shares the threads of another one and adds a progress callback: for every
+/// call with this context, or with a psp handle made with it, whose options have no callback of
+/// their own. So calls without options, such as the analysis, can report progress and be cancelled.
 ///
-/// context: the other context. It may be freed before this one. Its own callback, if any, is not
-/// inherited.
+/// context: the other context, which may be freed before this one. Its callback is not inherited.
 ///
-/// progress: the callback, or NULL for none. Each thread that makes a call with the context calls
-/// it.
-///
-/// progress_user: passed to the callback.
-///
-/// out: the context, to be freed with azulejo_context_free. No thread is started. O(1).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// progress: the callback, or NULL for none. Each thread that calls with the context calls it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_context_watch(
     context: *const azulejo_context,
@@ -96,7 +82,7 @@ pub unsafe extern "C" fn azulejo_context_num_threads(context: *const azulejo_con
     unsafe { handles::peek("context", context) }.map_or(0, |context| context.shared.num_threads() as u32)
 }
 
-/// Frees a context. Its threads end when no call and no handle uses them any more. NULL is allowed.
+/// Frees a context. Its threads end when no call and no handle uses them any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_context_free(context: *mut azulejo_context) {
     // SAFETY: handed on from the caller.

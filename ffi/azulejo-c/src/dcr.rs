@@ -14,10 +14,9 @@ use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
-/// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close
-/// holes.
+/// Neighbours by the Delaunay triangulation: they keep their distance and close holes.
 pub const AZULEJO_NEIGHBOURHOOD_DELAUNAY: u32 = 0;
-/// A point's neighbours are its nearest points: they only repel.
+/// The nearest points: they only repel.
 pub const AZULEJO_NEIGHBOURHOOD_NEAREST: u32 = 1;
 
 /// The momentum method, the default: neighbours in conflict push each other away, holes pull the
@@ -26,7 +25,7 @@ pub const AZULEJO_METHOD_MOMENTUM: u32 = 0;
 /// The algorithm of thesis chapter 4.
 pub const AZULEJO_METHOD_THESIS: u32 = 1;
 
-/// The tension of an edge is divided between its ends according to their activeness: the default.
+/// Tension is divided between the ends of an edge by their activeness.
 pub const AZULEJO_DISTRIBUTION_ACTIVENESS: u32 = 0;
 /// Half of the tension goes to each end.
 pub const AZULEJO_DISTRIBUTION_AVERAGE: u32 = 1;
@@ -34,30 +33,27 @@ pub const AZULEJO_DISTRIBUTION_AVERAGE: u32 = 1;
 pub const AZULEJO_DISTRIBUTION_DOMINANT: u32 = 2;
 /// All of the tension goes to the point itself.
 pub const AZULEJO_DISTRIBUTION_ZERO: u32 = 3;
-/// 80 per cent of the tension goes to the point itself, 20 to the neighbour.
+/// 80 per cent of the tension goes to the point, 20 to the neighbour.
 pub const AZULEJO_DISTRIBUTION_EIGHTY_TWENTY: u32 = 4;
 
-/// An edge is visited from each end that has the other one in its neighbourhood: the default.
+/// An edge is visited from each end that has the other one as a neighbour.
 pub const AZULEJO_VISITS_BOTH_ENDS: u32 = 0;
 /// An edge is visited from one end, the same in every step, chosen by a hash of the seed and the
 /// two points. Points move about half as far in a step, and the constant distributions differ with
 /// Delaunay neighbours too.
 pub const AZULEJO_VISITS_ONE_END: u32 = 1;
 
-/// A set has converged when the motion falls to the tolerance: the default.
+/// A set has converged when the motion falls to the tolerance.
 pub const AZULEJO_CONVERGENCE_MOTION: u32 = 0;
 /// A set has converged when ten times in succession the variance of the distances to the nearest
 /// point changes by less than 0.1 per cent in a step and more than 99 per cent of the points move
-/// by less than 0.01 d_max (thesis section 4.4.2). The smaller the step, the earlier that happens;
-/// in sets of a few hundred points it may never happen.
+/// by less than 0.01 d_max (thesis section 4.4.2). Sets of a few hundred points may never do so.
 pub const AZULEJO_CONVERGENCE_VARIANCE: u32 = 1;
 
-/// Options of azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_scatter. The latter uses
-/// only the domain, the boundary, the seed and the progress callback; the struct is shared so that
-/// a scattered set is relaxed on the same domain.
-///
-/// The fields from `conflict_radius` on are settings of AZULEJO_METHOD_THESIS; with
-/// AZULEJO_METHOD_MOMENTUM they must have their defaults.
+/// Options of azulejo_dcr_relax, azulejo_dcr_relax_classes, azulejo_dcr_relax_density and
+/// azulejo_dcr_scatter; the last one uses only the domain, the boundary, the seed and the progress
+/// callback. The fields from `conflict_radius` on are settings of AZULEJO_METHOD_THESIS, with
+/// lengths in units of d_max; with AZULEJO_METHOD_MOMENTUM they must have their defaults.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_options {
@@ -65,10 +61,9 @@ pub struct azulejo_dcr_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// The lower corner of the domain, x y; finite; default 0 0.
+    /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
-    /// 1 1. Neither side may be longer than 2^100 times the other.
+    /// The upper corner, as in azulejo_plane_set; default 1 1.
     pub domain_max: [f64; 2],
     /// An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
     pub neighbourhood: u32,
@@ -81,30 +76,28 @@ pub struct azulejo_dcr_options {
     /// Must be 0.
     pub reserved: u32,
     /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
-    /// azulejo_dcr_relax_density those of a clustered set's redistribution; any number, default 0.
+    /// azulejo_dcr_relax_density those of a clustered set's redistribution; default 0.
     pub seed: u64,
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
     /// with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
     pub tolerance: f64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// Neighbours closer than this, in units of d_max, repel each other; above 0, at most 1;
-    /// default 0.95.
+    /// Neighbours closer than this repel each other; above 0, at most 1; default 0.95.
     pub conflict_radius: f64,
-    /// Delaunay neighbours farther apart than this, in units of d_max, attract each other; at least
-    /// conflict_radius; default 1.05.
+    /// Farther Delaunay neighbours attract each other; at least conflict_radius; default 1.05.
     pub attraction_radius: f64,
-    /// The displacement by a tension of 1, in units of d_max; above 0, at most 1; default 0.05.
+    /// The displacement by a tension of 1; above 0, at most 1; default 0.05.
     pub step: f64,
     /// The factor of `step` from one step to the next; above 0, at most 1; default 1. All steps
     /// together are no longer than step / (1 - decay); from a random start about 10 are needed.
     pub decay: f64,
-    /// The number of neighbours of AZULEJO_NEIGHBOURHOOD_NEAREST; at least 1; default 6.
+    /// Of AZULEJO_NEIGHBOURHOOD_NEAREST: their number; at least 1; default 6.
     pub neighbours: u32,
-    /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); default activeness.
+    /// An AZULEJO_DISTRIBUTION_ constant (thesis fig. 4.19); default activeness.
     pub distribution: u32,
     /// An AZULEJO_VISITS_ constant; default both ends.
     pub visits: u32,
@@ -134,9 +127,7 @@ growing!(azulejo_dcr_options requires domain_max {
     convergence: AZULEJO_CONVERGENCE_MOTION,
 });
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_options_init(
     options: *mut azulejo_dcr_options,
@@ -227,15 +218,14 @@ fn convergence(value: u32) -> Result<Convergence, Failure> {
 }
 
 /// The set converged, or there was nothing to move. With AZULEJO_METHOD_MOMENTUM and Delaunay
-/// neighbours no points are then closer than 0.85 d_max and no circumradius is above 0.67 d_max, up
-/// to the last step.
+/// neighbours no points are closer than 0.85 d_max then, and no circumradius is above 0.67 d_max.
 pub const AZULEJO_STOPPED_CONVERGED: u32 = 0;
 /// All steps were made.
 pub const AZULEJO_STOPPED_STEPS: u32 = 1;
 /// The progress callback cancelled the call.
 pub const AZULEJO_STOPPED_CANCELLED: u32 = 2;
 
-/// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
+/// The report of azulejo_dcr_relax, _relax_classes and _relax_density.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_report {
@@ -248,11 +238,9 @@ pub struct azulejo_dcr_report {
     /// Always 0.
     pub reserved: u32,
     /// Half of the distance that points moved, root mean square, in units of d_max: over the last
-    /// 10 steps, or with AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, so that
-    /// it does not depend on the step size.
+    /// 10 steps, or with AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2.
     pub motion: f64,
-    /// The smallest distance between two of the points, in the units of the domain; infinite for
-    /// fewer than two points.
+    /// The smallest distance between two points; infinite for fewer than two.
     pub smallest_distance: f64,
     /// The smallest distance in units of d_max: about 0.77 for a maximal Poisson-disk set, at most
     /// 1 on a periodic domain; infinite for fewer than two points.
@@ -279,9 +267,7 @@ impl From<Report> for azulejo_dcr_report {
     }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_report_init(
     report: *mut azulejo_dcr_report,
@@ -301,32 +287,22 @@ pub(crate) fn reason(stopped: Stopped) -> u32 {
 }
 
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
-/// the set has converged or all steps are made (thesis chapter 4).
+/// the set has converged or all steps are made, with which the call succeeds as well (thesis
+/// chapter 4). AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which
+/// points are crowded in some places and missing in others: any set ends as a random one does, and
+/// after about the same time.
 ///
-/// AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which points are
-/// crowded in some places and missing in others: any set ends as a random one does, and after about
-/// the same time. A call that makes all steps succeeds whether or not it has converged; the report
-/// has the figures.
+/// positions: the points, x y each.
 ///
-/// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
-/// step and the states after whole steps, the one in which the fewest points have a neighbour
-/// closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it
-/// is the set after the last whole step. A call that its progress callback cancels succeeds with
-/// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
+/// out: the points, in the same order. With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours, of the
+/// set before the first step and the states after whole steps the one in which the fewest points
+/// have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67
+/// d_max; otherwise the state after the last whole step.
 ///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// out: the points, in the same order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(count) time for each step from evenly spread points. O(count * log count) where the
-/// triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
-/// AZULEJO_METHOD_MOMENTUM in sets of a few points and in the first steps of sets with holes as
-/// wide as the domain. A bounded domain takes up to four times the time and memory of a periodic
-/// one. O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// O(count) time for each step, O(count * log count) where the triangulation is built again: in
+/// each step of AZULEJO_METHOD_THESIS, with AZULEJO_METHOD_MOMENTUM for a few points and in the
+/// first steps of sets with holes as wide as the domain. A bounded domain takes up to four times
+/// the time and memory of a periodic one. O(count) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
     context: *const azulejo_context,
@@ -356,37 +332,29 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
     })
 }
 
-/// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union
-/// of all points and each class by itself get more even. They cannot be as even as a set of one
-/// class, as a good lattice does not divide into good lattices: from maximal sets of 2 to 7
-/// classes of a periodic domain, rho ends above 0.7 and the covering radius below 0.82 d_max,
-/// in the union and in each class, where before some covering radii were 1 d_max and more. No
-/// distance between points of two classes is promised.
+/// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union of
+/// all points and each class by itself get more even, though less so than a set of one class. From
+/// maximal sets of 2 to 7 classes of a periodic domain, rho ends above 0.7 and the covering radius
+/// below 0.82 d_max, in the union and in each class. No distance between points of two classes is
+/// promised. A class that is clustered is levelled before the first step. Only
+/// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. Source: the constraints of thesis
+/// chapter 4 for each of the sets; several classes after Wei 2010.
 ///
-/// Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. The result is the set
-/// after the last whole step; it mostly makes all of them. A class whose points are crowded in
-/// some places and missing in others is levelled before the first step. A call that its
-/// progress callback cancels succeeds with what there is then, and AZULEJO_STOPPED_CANCELLED in
-/// the report.
+/// positions: the points, x y each.
 ///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
+/// classes: the class of each point, below class_count.
 ///
-/// classes: the class of each point, below class_count; `count` of them.
-///
-/// class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
+/// class_count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
 ///
 /// class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
 /// `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
 /// number of points; infinite where a class has fewer than two points, or none.
 ///
-/// out: the points, in the same order, to be freed with azulejo_points_free.
+/// out: the points after the last whole step, in the same order. Mostly all steps are made.
 ///
-/// report: what the call did, with the figures of the union, or NULL.
+/// report: what the call did, with the figures of the union.
 ///
-/// About 2.5 times the time of azulejo_dcr_relax, and O(count) memory. Source: the constraints
-/// of thesis chapter 4 for each of the sets; several classes after Wei 2010.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// O(count) memory, and about 2.5 times the time of azulejo_dcr_relax.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax_classes(
     context: *const azulejo_context,

@@ -12,24 +12,17 @@ use crate::handles;
 use crate::points::azulejo_points;
 use crate::status::{Failure, azulejo_status};
 
-/// Gives the density at a position.
-///
-/// It is called on other threads than the one that made the call, by several at once, unless the
-/// context has one thread: then on that thread only. It must be thread-safe, return (see
-/// "Callbacks" at the top), and must not call the library with the same context. It is called once
-/// for each place of a lattice of up to some hundred places per point: by azulejo_dcr_relax_density
-/// before its first report of progress, by azulejo_dcr_scatter after that.
+/// Gives the density at a position, at least 0. See "Callbacks" in azulejo.h. It is called once for
+/// each place of a lattice of up to some hundred places per point.
 ///
 /// user: the `function_user` of the azulejo_density.
 ///
 /// position: x y of a place in the domain.
-///
-/// Returns the density, finite and at least 0.
 pub type azulejo_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
 /// A density of points from place to place, in any unit: twice the density gives the same set.
-/// Densities are finite, at least 0, and not 0 everywhere; where they are 0 no points are wanted.
-/// Either `values` or `function` must be set.
+/// Densities are at least 0, and not 0 everywhere; where they are 0 no points are wanted. Either
+/// `values` or `function` must be set; what is not set has its default, NULL or 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_density {
@@ -38,14 +31,13 @@ pub struct azulejo_density {
     /// Must be 0.
     pub reserved: u32,
     /// An image that is stretched over the domain, linear between the centres of its pixels:
-    /// `height` rows of `width` densities, the first row along the lower edge of the domain
-    /// (domain_min[1]). Used during the call only. NULL, the default, if `function` is set.
+    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]).
     pub values: *const f32,
-    /// The number of pixels in a row, at least 1. Must be 0, the default, if `function` is set.
+    /// The number of pixels in a row.
     pub width: usize,
-    /// The number of rows, at least 1. Must be 0, the default, if `function` is set.
+    /// The number of rows.
     pub height: usize,
-    /// Gives the density at a position. NULL, the default, if `values` is set.
+    /// Gives the density at a position.
     pub function: azulejo_density_fn,
     /// Passed to `function`.
     pub function_user: *mut c_void,
@@ -107,30 +99,15 @@ impl azulejo_density {
     }
 }
 
-/// Writes the defaults. `struct_size` is sizeof *density.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_density_init(density: *mut azulejo_density, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.
     unsafe { growing::init("density", density, struct_size) }
 }
 
-/// Makes random points with a density: a start for azulejo_dcr_relax_density.
-///
-/// options: the domain, the boundary, the seed and the progress callback are used; the other fields
-/// are checked only.
-///
-/// density: the density of the points.
-///
-/// count: the number of points.
-///
-/// out: the points, x y each, to be freed with azulejo_points_free.
-///
-/// O(count * log count) time, and O(count) calls of a density function; O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
-/// everywhere; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// Makes `count` random points with a density: a start for azulejo_dcr_relax_density. O(count * log
+/// count) time, and O(count) calls of a density function; O(count) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_scatter(
     context: *const azulejo_context,
@@ -163,34 +140,23 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
 /// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
 /// points that is far from it is redistributed before the first step, onto points as
-/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps.
+/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps. Only
+/// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
 /// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
-/// place, so that it is finite where the density is 0. The report's rho is the least of all
-/// distances over the mean of the spacings of the two points; its coverage is the largest
-/// circumradius of a Delaunay triangle over the spacing at its centre, without the limit to its
-/// increase; its motion is in units of d_max. Details of the density smaller than an eighth of
-/// d_max are lost.
+/// place. Details of the density smaller than an eighth of d_max are lost.
 ///
-/// options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; others are
-/// refused.
+/// positions: the points, x y each.
 ///
-/// density: the density of the points; used during the call only.
+/// out: the points after the last whole step, in the same order.
 ///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// out: the points after the last whole step, in the same order, to be freed with
-/// azulejo_points_free. A call that its progress callback cancels succeeds, as that of
-/// azulejo_dcr_relax does.
-///
-/// report: what the call did, or NULL.
+/// report: rho is the least of all distances over the mean of the spacings of the two points, the
+/// relative covering radius the largest circumradius of a Delaunay triangle over the spacing at its
+/// centre, without the limit to its increase; the motion is in units of d_max.
 ///
 /// O(count) calls of a density function, then O(count) time for each step, with a factor for
 /// densities that vary by orders of magnitude; O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
-/// everywhere; AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax_density(
     context: *const azulejo_context,

@@ -28,11 +28,9 @@ const _: () = {
 /// (Wei and Wang 2011, "Differential domain analysis for non-uniform sampling"): the density of
 /// other samples at an offset from a sample, over the mean density. 1 for a Poisson process. Its
 /// Fourier transform takes the place of the power spectrum, which is not defined on a surface.
-/// Immutable: several threads may use it at once.
 ///
 /// The offset of a pair is projected onto the tangent plane of its first sample and keeps its
-/// straight length. Lengths are in mean spacings, sqrt(area / count), and frequencies in units of
-/// one over that.
+/// straight length. Lengths are in mean spacings, sqrt(area / count), frequencies in their inverse.
 pub struct azulejo_differences {
     differences: Differences,
     density: Vec<f64>,
@@ -50,25 +48,18 @@ impl From<Differences> for azulejo_differences {
 
 /// Measures the differences of samples on a mesh. They are divided by those with random points of
 /// the mesh, so that boundaries, curvature and other sheets nearby cancel out (Davis and Peebles
-/// 1983).
+/// 1983). O(count) time.
 ///
 /// mesh: must have area that its mask does not leave out.
 ///
-/// positions: the samples, x y z each, finite; `count` of them, at least 2.
+/// positions: the samples, x y z each, at least 2.
 ///
-/// normals: the normals of the samples' triangles, x y z each, as azulejo_points_normals returns
-/// them; `count` of them.
+/// normals: those of the samples' triangles, x y z each, as azulejo_points_normals returns them.
 ///
 /// direction: three numbers, not all 0: the x axis of the offsets is its projection onto the
 /// tangent plane.
 ///
 /// seed: selects the random points, two per sample.
-///
-/// out: the differences, to be freed with azulejo_differences_free.
-///
-/// O(count) time for evenly spread samples.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_create(
     context: *const azulejo_context,
@@ -99,16 +90,9 @@ pub unsafe extern "C" fn azulejo_differences_create(
 }
 
 /// Combines the differences of sets of one kind. Their noise decreases with the square root of the
-/// number of sets. It takes no context: it runs on the calling thread and does not report progress.
+/// number of sets. O(count) time and memory, on the calling thread.
 ///
-/// differences: `count` of them, at least 1.
-///
-/// out: the mean, to be freed with azulejo_differences_free; those given still belong to the
-/// caller.
-///
-/// O(count) time and memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// differences: `count` of them, at least 1. They still belong to the caller.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_mean(
     differences: *const *const azulejo_differences,
@@ -126,8 +110,7 @@ pub unsafe extern "C" fn azulejo_differences_mean(
 }
 
 /// p(d): AZULEJO_DIFFERENCES_SIZE squared numbers, row by row from the lowest offset; 0 where not
-/// even random points have a pair. The offset 0 is in the middle, where four cells meet. Valid
-/// until azulejo_differences_free. NULL for NULL.
+/// even random points have a pair. The offset 0 is in the middle, where four cells meet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_density(differences: *const azulejo_differences) -> *const f64 {
     // SAFETY: handed on from the caller.
@@ -136,7 +119,6 @@ pub unsafe extern "C" fn azulejo_differences_density(differences: *const azulejo
 }
 
 /// The radial mean of p(d), the radial distribution function: AZULEJO_DIFFERENCES_SHELLS numbers.
-/// Valid until azulejo_differences_free. NULL for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_radial(differences: *const azulejo_differences) -> *const f64 {
     // SAFETY: handed on from the caller.
@@ -145,16 +127,12 @@ pub unsafe extern "C" fn azulejo_differences_radial(differences: *const azulejo_
 }
 
 /// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for
-/// a Poisson process. Its resolution is one over AZULEJO_DIFFERENCES_REACH.
+/// a Poisson process. Its resolution is one over AZULEJO_DIFFERENCES_REACH. O(count) time, on one
+/// thread.
 ///
-/// frequencies: `count` frequencies from -32 to 32, in units of one over the mean spacing; may be
-/// NULL if `count` is 0.
+/// frequencies: `count` frequencies from -32 to 32.
 ///
-/// out: receives the power at each, `count` numbers; may be NULL if `count` is 0.
-///
-/// O(count) time on the calling thread.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// out: receives the power at each, `count` numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_power(
     differences: *const azulejo_differences,
@@ -184,7 +162,7 @@ pub unsafe extern "C" fn azulejo_differences_power(
 /// Half of the frequency of the shells, beyond which nothing is known.
 const MAX_FREQUENCY: f64 = 32.0;
 
-/// Frees the differences. NULL is allowed.
+/// Frees the differences.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_free(differences: *mut azulejo_differences) {
     // SAFETY: handed on from the caller.

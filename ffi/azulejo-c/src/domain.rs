@@ -11,7 +11,7 @@ use crate::status::{Failure, azulejo_status};
 
 /// The domain is a torus: distances wrap with the period domain_max - domain_min.
 pub const AZULEJO_BOUNDARY_PERIODIC: u32 = 0;
-/// The domain ends at its edges: samples beyond them neither exist nor cover anything.
+/// Samples beyond the edges of the domain neither exist nor cover anything.
 pub const AZULEJO_BOUNDARY_BOUNDED: u32 = 1;
 
 /// The domain of the caller; the core checks the corners.
@@ -32,14 +32,14 @@ pub struct azulejo_plane_set {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// The points, x y each, with domain_min <= x < domain_max on both axes. Default NULL: none.
+    /// The points, x y each. Default NULL: none.
     pub positions: *const f32,
     /// The number of points; default 0.
     pub count: usize,
-    /// The lower corner of the domain, x y; finite; default 0 0.
+    /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
-    /// 1 1. Neither side may be longer than 2^100 times the other.
+    /// The upper corner of the domain, x y, above the lower corner on both axes; default 1 1.
+    /// Neither side may be longer than 2^100 times the other.
     pub domain_max: [f64; 2],
 }
 
@@ -51,9 +51,7 @@ growing!(azulejo_plane_set requires domain_max {
     domain_max: [1.0; 2],
 });
 
-/// Writes the defaults: no points on the unit torus. `struct_size` is sizeof *set.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults: no points on the unit torus.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_set_init(set: *mut azulejo_plane_set, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.

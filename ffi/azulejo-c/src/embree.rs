@@ -13,8 +13,8 @@ use crate::handles;
 use crate::mesh::{azulejo_mesh, collect};
 use crate::status::{Failure, azulejo_status};
 
-/// A geometry of triangles in a scene that the program has made with Embree. Embree does not report
-/// the sizes of its buffers, so the caller gives them.
+/// A geometry of triangles in a scene that the program has made with Embree, which does not report
+/// the sizes of its buffers.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_embree_geometry {
@@ -22,24 +22,20 @@ pub struct azulejo_embree_geometry {
     pub geometry_id: u32,
     /// Bytes from one vertex to the next: a multiple of 4, at least 12.
     pub vertex_stride: u32,
-    /// Bytes from one triangle to the next: a multiple of 4, at least 12.
+    /// Bytes from one triangle to the next, likewise.
     pub index_stride: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// The vertices in its buffer of type RTC_BUFFER_TYPE_VERTEX, slot 0, of format
-    /// RTC_FORMAT_FLOAT3.
+    /// Those in its buffer RTC_BUFFER_TYPE_VERTEX, slot 0, of format RTC_FORMAT_FLOAT3.
     pub vertex_count: usize,
-    /// The triangles in its buffer of type RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
+    /// Those in its buffer RTC_BUFFER_TYPE_INDEX, of format RTC_FORMAT_UINT3.
     pub triangle_count: usize,
 }
 
-/// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree. The
-/// scene and its device are not changed: neither flags nor error function nor thread count (but see
-/// azulejo_context_create). The mesh does not need them after the call; its samples are traced in a
-/// scene and on a device of the library's.
-///
-/// Triangles are numbered in the order of `geometries`: triangle i of the mesh is primitive i of
-/// the first geometry, those of the second follow, and so on. The same holds for vertices.
+/// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree.
+/// Scene and device are not changed (but see azulejo_context_create), and not needed after the
+/// call: samples are traced in a scene and on a device of the library's. Triangle i of the mesh is
+/// primitive i of the first geometry, those of the second follow, and so on; vertices likewise.
 ///
 /// scene: a committed RTCScene that no thread changes during the call. It must come from the
 /// libembree that the program has linked or, where it has linked none that all its libraries see,
@@ -47,13 +43,10 @@ pub struct azulejo_embree_geometry {
 /// statically, the behaviour is undefined. Another version of a linked one is refused. Instances in
 /// it are not followed.
 ///
-/// geometries: `geometry_count` of them, at least one, each attached to the scene as
-/// RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a size or a type is not that of the scene, the behaviour
-/// is undefined.
+/// geometries: at least one, each attached to the scene as RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a
+/// size or a type is not that of the scene, the behaviour is undefined.
 ///
 /// geometry_size: sizeof(azulejo_embree_geometry).
-///
-/// out: the mesh, to be freed with azulejo_mesh_free.
 ///
 /// O(vertices + triangles).
 ///

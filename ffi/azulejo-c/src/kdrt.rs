@@ -19,9 +19,8 @@ use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
-/// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream,
-/// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and
-/// azulejo_kdrt_create_classes.
+/// Options of azulejo_kdrt_sample, _sample_window, _stream and _create, and with classes of
+/// azulejo_kdrt_sample_classes and _create_classes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
@@ -29,54 +28,46 @@ pub struct azulejo_kdrt_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// The smallest distance between two samples, in the units of the domain: above 0, and at least
-    /// 64 times the spacing of floats at the largest coordinate. It has no default. Must be 0 if
-    /// there is a `count`, from which the radius follows, and in calls with classes, which have
-    /// radii of their own.
+    /// The smallest distance between two samples: above 0, and at least 64 float spacings. It has
+    /// no default. Must be 0 with a `count`, which it follows from, and in calls with classes.
     pub radius: f64,
-    /// The lower corner of the domain, x y; finite; default 0 0.
+    /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
-    /// 1 1. Neither side may be longer than 2^100 times the other.
+    /// The upper corner, as in azulejo_plane_set; default 1 1.
     pub domain_max: [f64; 2],
     /// The shortest side of the leaves that tile the domain, in radii; at least 6, default 20.
-    /// Sides are random, up to twice as long. Larger leaves are faster and have fewer seams, but
-    /// need a larger pattern.
+    /// Larger leaves have fewer seams and are faster, but need a larger pattern.
     pub leaf_size: f64,
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
     /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
-    /// streams and planes that are kept, which are made by radius.
+    /// streams and planes that are kept.
     pub count: usize,
     /// 1: azulejo_kdrt_sample measures the `covering_radius` in its report, which takes much longer
     /// than the sampling. Default 0. Must be 0 with the report NULL, and in other calls.
     pub measure_covering_radius: u32,
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well. Must be any for streams, which come
-    /// place by place.
+    /// well spread, and azulejo_points_ranks says how well. Must be any for streams.
     pub order: u32,
     /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5. Every prefix of 100 samples and more covers the domain within this times
-    /// its last rank, smaller ones within twice that rank, or the square of the quotient times it
-    /// if that is more. Default 0: 2^(1/8). Windows of large domains are several times as fast with
-    /// 2^(1/4).
+    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8). Windows of
+    /// large domains are several times as fast with 2^(1/4).
     pub quotient: f64,
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
     /// coarse as the domain, so that the first level has one sample. Windows of large domains are
     /// faster with a shorter one, such as 16 radii.
     pub coarsest: f64,
-    /// Samples that stand already, x y each, finite, anywhere in the plane; on a torus they wrap.
-    /// Read during the call only, but for azulejo_kdrt_create, which copies them. Default NULL:
-    /// none. Must be none where there is a `count`.
+    /// Samples that stand already, x y each, anywhere in the plane; on a torus they wrap. Default
+    /// NULL: none. Must be none where there is a `count`. They are not moved, dropped, compared
+    /// with each other or returned; in progressive order they cover from the first level on.
     pub given_positions: *const f32,
-    /// The clearance of each, finite and 0 or more, in the units of the domain: new samples are at
-    /// least so far from it, and what is nearer to it is covered. 0 has no effect. Default NULL:
-    /// all have the `radius`. In calls with classes it has a row for each given sample, with a
-    /// clearance for each class.
+    /// The clearance of each, 0 or more: new samples are at least so far from it, and what is
+    /// nearer to it is covered; 0 has no effect. Default NULL: all have the `radius`. In calls with
+    /// classes a row for each given sample, with a clearance for each class (NULL: its own radius).
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
@@ -101,9 +92,7 @@ growing!(azulejo_kdrt_options requires radius {
     given_count: 0,
 });
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_options_init(
     options: *mut azulejo_kdrt_options,
@@ -113,8 +102,7 @@ pub unsafe extern "C" fn azulejo_kdrt_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// The report of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream and
-/// azulejo_maximal_sample.
+/// The report of azulejo_kdrt_sample, _sample_window, _stream and azulejo_maximal_sample.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_report {
@@ -124,13 +112,11 @@ pub struct azulejo_kdrt_report {
     pub is_maximal: u32,
     /// The number of samples; the `count` of the options if there is one.
     pub samples: u64,
-    /// The radius, that of the options or the one found for the count, in the units of the domain.
-    /// No two samples are closer.
+    /// The radius of the options, or the one found for the count. No two samples are closer.
     pub radius: f64,
-    /// The covering radius as azulejo_plane_covering_radius measures it, in the units of the
-    /// domain, if the options have `measure_covering_radius`; else -1.
+    /// The covering radius, if the options have `measure_covering_radius`; else -1.
     pub covering_radius: f64,
-    /// Wall time in seconds, without the measuring of `covering_radius`.
+    /// Wall time in seconds, without measuring `covering_radius`.
     pub seconds: f64,
 }
 
@@ -153,9 +139,7 @@ pub(crate) fn of_samples(count: usize, radius: f64) -> azulejo_kdrt_report {
     }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_report_init(
     report: *mut azulejo_kdrt_report,
@@ -166,52 +150,26 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
 }
 
 /// Makes a maximal, conflict-free set of samples of a rectangle: about 0.6966 * area / radius^2 of
-/// them, or exactly `count`.
+/// them, or exactly `count`. Tiles clips of one small pattern over a random kd-tree and repairs the
+/// seams (thesis chapter 2). A domain with less area than the pattern, or narrower than 13 radii,
+/// is not tiled: it gets the set of azulejo_maximal_sample. A radius longer than the diagonal of
+/// the domain gives one sample.
 ///
-/// Tiles clips of one small pattern over a random kd-tree and repairs the seams (thesis chapter 2).
-/// Its only bias is at the seams. A domain with less area than the pattern, or narrower than 13
-/// radii, is not tiled: it gets the set of azulejo_maximal_sample. A radius longer than the
-/// diagonal of the domain gives one sample.
+/// With a count, small regions of a set of about that many samples are made again until the number
+/// is right, and the set is still maximal. If that fails, which is rare, the most crowded samples
+/// of a larger set are dropped and `is_maximal` is 0.
 ///
-/// With a count, the radius follows from the density of maximal sets. The samples by which that set
-/// differs from the count, mostly a few per thousand, are corrected by making small regions again,
-/// so the set is still conflict-free and maximal. If no maximal set of exactly that many samples is
-/// found, which is rare, the most crowded samples of a larger set are dropped and `is_maximal` is
-/// 0.
-///
-/// In progressive order the set is made of nested maximal sets, coarse to fine, each filled around
-/// the one before, and sorted by falling rank (azulejo_points_ranks). The first of its samples, any
-/// number of them, are a set with fewer samples: at least as far apart as the last of their ranks,
-/// and within `quotient` times that of every point of the domain; if they are less than 100, within
-/// twice that, or the square of the quotient times it if that is more. So levels of detail are
-/// nested.
-/// Sets of one domain, quotient, coarsest radius and seed share their levels. With default options
-/// a set is a prefix of those whose radius is half of its own, a quarter and so on, bit for bit;
-/// and with a count, a prefix of those with a larger one. Then `radius` in the report is the last
-/// rank, and `is_maximal` is 0.
-///
-/// Around given samples the set is conflict-free and maximal as well: new samples are at least the
-/// clearance of each given one from it, in double arithmetic from the floats, and every point of
-/// the domain is within the radius of a new sample or the clearance of a given one, up to 6 float
-/// spacings at the largest coordinate. Given samples are not moved, dropped, compared with each
-/// other or part of the result. They take about a microsecond each, more than that only where their
-/// clearances are of very many radii. In progressive order they cover from the first level on.
-///
-/// options: with a radius or a count, not both.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free. With a count, samples that
-/// were made again take the places of others in the order.
-///
-/// report: what the call achieved, or NULL. It costs nothing unless `measure_covering_radius` is 1;
-/// then progress includes the measuring.
+/// In progressive order the set is made of nested maximal sets, coarse to fine, and sorted by
+/// falling rank (azulejo_points_ranks). Sets of one domain, quotient, coarsest radius and seed
+/// share their levels: with default options a set is a prefix of those whose radius is half of its
+/// own, a quarter and so on, bit for bit, and with a count of those with a larger one. Then
+/// `radius` in the report is the last rank, and `is_maximal` is 0.
 ///
 /// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
 /// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
 /// Measuring the covering radius takes O(samples * log samples).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius (or a count whose radius is) below 64
-/// times the spacing of floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE, with the
-/// estimate, for 2^32 samples or more, or more than memory holds; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a count whose radius is below 64 float spacings.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample(
     context: *const azulejo_context,
@@ -250,19 +208,10 @@ const SAMPLING_SHARE: f64 = 0.05;
 const PATTERN_SHARE: f64 = 0.05;
 
 /// Makes the part of a set of azulejo_kdrt_sample that lies in a window of the domain, without
-/// making the rest: the same floats in the same order.
-///
-/// Windows that partition the domain have every sample once, and can be made in any order, by
-/// threads, processes and machines that do not communicate. The samples in a window depend on
-/// nothing farther from it than 22 radii along x and 18 along y.
-///
-/// In progressive order a window has the samples of the whole set that lie in it, with their ranks,
-/// sorted in the same way, so prefixes of equal last rank fit together. Each level adds about 12 of
-/// its radii to the margin in which the levels before are needed: for a level of radius R that is
-/// about 145 R at a quotient of 2^(1/8), 75 R at 2^(1/4) and 41 R at 2^(1/2), in all about 56,000,
-/// 15,000 and 4,500 samples, as long as the domain is larger than that. A level costs about 0.2
-/// microseconds for each of them. From `coarsest` down to `radius` there are 8, 4 or 2 levels for
-/// each factor of two.
+/// making the rest: the same floats in the same order, with the same ranks. Windows that partition
+/// the domain have every sample once, and can be made in any order, by threads, processes and
+/// machines that do not communicate. For many windows of one plane, azulejo_kdrt_create makes the
+/// pattern once.
 ///
 /// options: those of the whole set, with a radius.
 ///
@@ -270,17 +219,15 @@ const PATTERN_SHARE: f64 = 0.05;
 /// domain_max. The window has the samples with window_min <= x < window_max. It may be smaller than
 /// the radius and may contain no sample.
 ///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
+/// O(samples in the window and within 22 radii along x and 18 along y) time and memory, and in
+/// every call the making of the pattern, of about 28,000 samples with the default leaves. In
+/// progressive order each level, of radius R, adds about 12 R to the margin in which the levels
+/// before are needed, in all about 56,000 samples at a quotient of 2^(1/8) or 15,000 at 2^(1/4) for
+/// each level, as long as the domain is larger than that. A domain that is not tiled is made as a
+/// whole.
 ///
-/// report: what the call achieved, or NULL.
-///
-/// O(samples in and around the window) time and memory, and in every call the making of the
-/// pattern, of about 28,000 samples with the default leaves: for many windows of one plane,
-/// azulejo_kdrt_create makes it once. A domain that is not tiled is made as a whole.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample; AZULEJO_ERROR_TOO_LARGE for the
-/// samples of the window, while the domain may have as many as floats can carry, up to about 10^11;
-/// AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_TOO_LARGE counts the samples of the window only; the domain may have as
+/// many as floats can carry, up to about 10^11.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     context: *const azulejo_context,
@@ -311,36 +258,26 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_window(
     })
 }
 
-/// Called with a part of a set, on the thread that made the call. See "Callbacks" at the top.
+/// Called with a part of a set. Returns 0 to continue, any other value to cancel the call.
 ///
 /// user: the `user` of the call.
 ///
-/// positions: the samples, x y each, valid until the callback returns; `count` of them, at least
-/// one.
-///
-/// Returns 0 to continue, any other value to cancel the call.
+/// positions: at least one sample, x y each, valid until the callback returns.
 pub type azulejo_kdrt_visit_fn =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, positions: *const f32, count: usize) -> u32>;
 
 /// Makes the set of azulejo_kdrt_sample and passes it to a callback part by part, in its order,
-/// instead of keeping it: for sets of any size that are written or consumed at once.
+/// instead of keeping it: for sets of any size that are written or consumed at once, up to about
+/// 10^11 samples, as many as floats can carry.
 ///
-/// options: those of the whole set, with a radius.
+/// options: those of the whole set, with a radius and in any order.
 ///
-/// visit: gets the parts: windows at most about 270 radii wide, of at most about 50,000 samples,
-/// the same ones for every number of threads. While it runs on the calling thread, the threads of
-/// the context make the next parts.
-///
-/// user: passed to `visit`.
-///
-/// report: what the call achieved, or NULL.
+/// visit: gets the parts, of at most about 50,000 samples, the same ones for every number of
+/// threads. While it runs on the calling thread, the threads of the context make the next parts. It
+/// can cancel the call.
 ///
 /// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
 /// tiled is made as a whole and is one part.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
-/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
-/// AZULEJO_ERROR_CANCELLED, also if `visit` cancels. A progressive order is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_stream(
     context: *const azulejo_context,

@@ -14,18 +14,11 @@ use crate::kept::azulejo_kdrt;
 use crate::points::azulejo_points;
 use crate::status::azulejo_status;
 
-/// Makes samples of several classes in a rectangle: samples of classes i and j are at least r_ij
-/// apart, and for each class i every point of the domain is within r_ij of some sample of some
-/// class j, up to 3 float spacings at the largest coordinate (6 around given samples).
-///
-/// Classes come by falling own radius; those of equal radii are filled together and get equal
-/// shares. The class of the largest own radius, if no other has the same, has all the samples that
-/// it would have alone, and where the domain is tiled (see azulejo_kdrt_sample) it has the very
-/// samples of azulejo_kdrt_sample. Those of smaller radii have what is left: with three classes of
-/// own radii 1, 1/2 and 1/4 and the matrix of azulejo_classes_radii with factor 1, the second and
-/// the third have about 0.82 of the samples that they would have alone. Three classes of equal
-/// radii have 0.79 each, 0.90 with factor 0.85, 0.95 with factor 0.7. Two radii that are nearly
-/// equal give other shares than two equal ones: 1 and 0.9 give 1 and 0.68.
+/// Makes samples of several classes in a rectangle, as azulejo_classes says. A single class has the
+/// set of azulejo_kdrt_sample. Classes of equal radii get equal shares. The class of the largest
+/// own radius, if no other has the same, has all the samples that it would have alone; those of
+/// smaller radii have what is left, about 0.8 of that with the matrix of azulejo_classes_radii and
+/// factor 1, 0.95 with factor 0.7 (docs/classes.md has tables).
 ///
 /// In progressive order the samples of each class are sorted coarse to fine, and
 /// azulejo_points_ranks has their ranks, which are radii of levels. Of the classes of equal own
@@ -35,26 +28,17 @@ use crate::status::azulejo_status;
 /// times that instead. So a host can show the first part of each class, near parts of a scene more
 /// than far ones. It takes about eight times the time.
 ///
-/// options: `radius` must be 0, since classes have radii of their own; `count` and
-/// `measure_covering_radius` must be 0. `coarsest` is the radius of the first level of each class,
-/// at least the largest own radius. `given_clearances`, if not NULL, has given_count rows, each
-/// with a clearance for each class; NULL: each class's own radius.
+/// options: `radius`, `count` and `measure_covering_radius` must be 0. `coarsest` is the radius of
+/// the first level of each class, at least the largest own radius.
 ///
-/// classes: with at least one class. A single class has the set of azulejo_kdrt_sample, in its
-/// order.
-///
-/// out: the samples, x y each, with azulejo_points_classes, sorted by class, and within a class by
-/// y and x, in progressive order by falling rank; to be freed with azulejo_points_free.
-///
-/// report: how many samples each class has, or NULL.
+/// out: the samples with their classes, sorted by class, and within a class by y and x, in
+/// progressive order by falling rank.
 ///
 /// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
 /// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
 /// radii, these classes are filled by one thread, with 512 bytes per sample.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an own radius below 64 times the spacing of
-/// floats at the largest coordinate; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, or more than
-/// memory holds; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for an own radius below 64 float spacings.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     context: *const azulejo_context,
@@ -83,26 +67,18 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
 }
 
 /// Makes what all windows of a plane of several classes need. azulejo_kdrt_window then makes any of
-/// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order, with
-/// azulejo_points_classes.
+/// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order. The
+/// plane is kept as by azulejo_kdrt_create.
 ///
-/// options, classes: those of the whole set. The progress callback is called during this call only.
+/// options, classes: those of the whole set. Only this call calls the progress callback.
 ///
-/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
-///
-/// A window takes O(samples in and around it) time and memory: classes of one own radius depend on
-/// what lies within about 30 times the largest r_ij between two of them, and one between them and
-/// classes of larger radii, and these on what lies around that again. In progressive order each
-/// level adds 30 times its r_ij: windows of large domains need a `coarsest` of a few times the
-/// largest own radius.
-///
-/// O(samples of the pattern) time. The plane takes what that of azulejo_kdrt_create takes for the
-/// largest own radius, and 1 byte for each of the other radii on the sides of the domain. On a
-/// torus that is narrower than about 10 times the largest r_ij between classes of equal own radii,
-/// these and the classes before are made as a whole and kept, in 12 bytes per sample.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample_classes; AZULEJO_ERROR_CANCELLED.
-/// The domain may have more samples than can be held.
+/// O(samples of the pattern) time, and the memory of azulejo_kdrt_create. A window takes O(samples
+/// in and around it): classes of one own radius depend on what lies within about 30 times the
+/// largest r_ij between two of them, and one between them and classes of larger radii, and these on
+/// what lies around that again. In progressive order each level adds 30 times its r_ij: windows of
+/// large domains need a `coarsest` of a few times the largest own radius. On a torus narrower than
+/// about 10 times the largest r_ij between classes of equal own radii, these and the classes before
+/// are kept as a whole, in 12 bytes per sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create_classes(
     context: *const azulejo_context,

@@ -11,30 +11,23 @@ use crate::points::azulejo_points;
 use crate::status::azulejo_status;
 
 /// A plane: a set of azulejo_kdrt_sample or azulejo_kdrt_sample_classes of which any window can be
-/// made at any time. Immutable: several threads may make windows of it at once.
+/// made at any time.
 pub struct azulejo_kdrt {
     pub(crate) plane: Plane,
 }
 
 handle!(azulejo_kdrt);
 
-/// Makes what all windows of a plane need: its pattern and tables.
+/// Makes what all windows of a plane need: its pattern and tables. The plane keeps neither the
+/// context nor any thread, and copies given samples.
 ///
-/// options: those of the whole set, with a radius. The progress callback is called during this call
-/// only.
+/// options: those of the whole set, with a radius. Only this call calls the progress callback.
 ///
-/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
-///
-/// O(samples of the pattern) time: about 28,000 samples with the default leaves. The plane takes 32
-/// bytes of memory for each of them, 0.9 MB in all, and 1 byte for each radius of the sides of the
-/// domain, however many samples the domain has. A domain that is not tiled (see
-/// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
-/// the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
-/// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
-/// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
-/// AZULEJO_ERROR_CANCELLED.
+/// O(samples of the pattern) time, about 28,000 with the default leaves. A plane takes about 0.9 MB
+/// and 1 byte for each radius of the sides of the domain, however many samples the domain has, up
+/// to about 10^11. A domain that is not tiled (see azulejo_kdrt_sample) is made as a whole and
+/// kept, in 8 bytes per sample; in progressive order levels of up to 65,536 samples are, unless the
+/// coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create(
     context: *const azulejo_context,
@@ -55,23 +48,14 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 }
 
 /// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
-/// order as azulejo_kdrt_sample_window and the whole set. Those of several classes have
-/// azulejo_points_classes.
-///
-/// All work happens on the calling thread, and other threads may make windows of the same plane
-/// meanwhile. Very large windows are made faster by azulejo_kdrt_sample_window, on the threads of a
-/// context.
+/// order as azulejo_kdrt_sample_window and the whole set, with classes where it has some. All work
+/// happens on the calling thread, and other threads may make windows of the same plane meanwhile.
+/// Very large windows are made faster by azulejo_kdrt_sample_window, on many threads.
 ///
 /// window_min, window_max: as in azulejo_kdrt_sample_window.
 ///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
 /// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
-/// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has for
-/// it.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
-/// window, or more than memory holds.
+/// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window(
     plane: *const azulejo_kdrt,

@@ -23,17 +23,15 @@ pub struct azulejo_maximal_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// The smallest distance between two samples, in the units of the domain: above 0, and at least
-    /// 64 times the spacing of floats at the largest coordinate. It has no default.
+    /// As in azulejo_kdrt_options: above 0, and at least 64 float spacings. It has no default.
     pub radius: f64,
-    /// The lower corner of the domain, x y; finite; default 0 0.
+    /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
-    /// 1 1. Neither side may be longer than 2^100 times the other.
+    /// The upper corner, as in azulejo_plane_set; default 1 1.
     pub domain_max: [f64; 2],
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
@@ -49,9 +47,7 @@ growing!(azulejo_maximal_options requires radius {
     progress_user: std::ptr::null_mut(),
 });
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_maximal_options_init(
     options: *mut azulejo_maximal_options,
@@ -63,19 +59,9 @@ pub unsafe extern "C" fn azulejo_maximal_options_init(
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is
 /// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. It is
-/// the reference with which other sets are compared. It is much slower than azulejo_kdrt_sample.
-/// The threads of the context share the work; the set is the same for every number of them.
-///
-/// Source: M. S. Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling in High
-/// Dimensions, 2012.
-///
-/// out: the samples, x y each, to be freed with azulejo_points_free.
-///
-/// report: what the call achieved, or NULL.
-///
-/// O(samples) time and memory.
-///
-/// Errors: as azulejo_kdrt_sample.
+/// the reference with which other sets are compared, and much slower than azulejo_kdrt_sample.
+/// O(samples) time and memory. Source: M. S. Ebeida et al., A Simple Algorithm for Maximal
+/// Poisson-Disk Sampling in High Dimensions, 2012.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_maximal_sample(
     context: *const azulejo_context,

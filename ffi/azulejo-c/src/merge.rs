@@ -22,18 +22,15 @@ pub struct azulejo_kdrt_merge_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// The smallest distance between two samples, that of the pieces, in the units of the domain:
-    /// above 0, and at least 64 times the spacing of floats at the largest coordinate. It has no
-    /// default.
+    /// As in azulejo_kdrt_options: above 0, and at least 64 float spacings. It has no default.
     pub radius: f64,
-    /// The lower corner of the domain, x y; finite; default 0 0.
+    /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
-    /// 1 1. Neither side may be longer than 2^100 times the other.
+    /// The upper corner, as in azulejo_plane_set; default 1 1.
     pub domain_max: [f64; 2],
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
@@ -49,9 +46,7 @@ growing!(azulejo_kdrt_merge_options requires radius {
     progress_user: std::ptr::null_mut(),
 });
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
     options: *mut azulejo_kdrt_merge_options,
@@ -66,14 +61,14 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_merge_piece {
-    /// The samples, x y each, with min <= x < max, no two of them closer than the radius; read
-    /// during the call only. They need not be maximal. NULL if there are none.
+    /// The samples, x y each, with min <= x < max, no two of them closer than the radius. They need
+    /// not be maximal.
     pub positions: *const f32,
     /// The number of samples.
     pub count: usize,
     /// The lower corner of the piece's rectangle, x y.
     pub min: [f64; 2],
-    /// The upper corner of the rectangle, above the lower one on both axes.
+    /// The upper corner, above the lower one on both axes.
     pub max: [f64; 2],
 }
 
@@ -103,9 +98,7 @@ impl From<MergeReport> for azulejo_kdrt_merge_report {
     }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
     report: *mut azulejo_kdrt_merge_report,
@@ -125,25 +118,21 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
 /// the pieces. If the pieces are maximal as azulejo_kdrt_sample makes them, new samples lie within
 /// the radius of a removed sample or of the edge of a piece's rectangle.
 ///
-/// pieces: `piece_count` of them, in the domain; NULL if there are none.
+/// pieces: `piece_count` of them, with rectangles in the domain.
 ///
 /// piece_size: sizeof(azulejo_kdrt_merge_piece).
 ///
-/// fixed: the points that must stay, x y each, with domain_min <= x < domain_max, no two of them
-/// closer than the radius; `fixed_count` of them; NULL if there are none.
+/// fixed: `fixed_count` points that must stay, no two of them closer than the radius.
 ///
-/// out: the samples, x y each, to be freed with azulejo_points_free: all fixed points, then the
-/// kept samples piece by piece, both in their order and bit for bit as given, then the new ones.
-///
-/// report: what became of the pieces, or NULL.
+/// out: all fixed points, then the kept samples piece by piece, both in their order and bit for bit
+/// as given, then the new ones.
 ///
 /// O(samples) time and memory, and at most O(piece_count^2) time for the rectangles. A periodic
 /// domain narrower than about 10 radii is filled on one thread.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for rectangles that overlap or leave the domain,
-/// samples outside their rectangle, two samples of one piece or two fixed points that are closer
-/// than the radius (the message has their indices), and a radius below 64 times the spacing of
-/// floats; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for rectangles that overlap or leave the domain,
+/// samples outside theirs, and two samples of one piece or two fixed points that are closer than
+/// the radius (the message has their indices).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge(
     context: *const azulejo_context,

@@ -14,9 +14,9 @@ use crate::points::azulejo_points;
 use crate::progress::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
-/// A checked triangle mesh. Immutable: several threads may use it at once. Any triangle soup is
-/// accepted: open, non-manifold, of many parts and mixed winding. A mesh may carry normals and a
-/// mask. Meshes made from one another share what they have in common.
+/// A checked triangle mesh. Any triangle soup is accepted: open, non-manifold, of many parts and
+/// mixed winding. A mesh may carry normals and a mask. Meshes made from one another share what they
+/// have in common, and neither change nor need each other.
 pub struct azulejo_mesh {
     pub(crate) shared: Arc<Mesh>,
 }
@@ -27,30 +27,20 @@ const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 
 /// Makes a mesh from a copy of the caller's arrays.
 ///
-/// positions: the vertices, x y z each, `stride_bytes` from one to the next; `vertex_count` of
-/// them. What lies between is not read.
+/// positions: the vertices, x y z each, `stride_bytes` from one to the next.
 ///
 /// stride_bytes: a multiple of 4, at least 12.
 ///
 /// indices: three per triangle, below `vertex_count`; triangles keep their order. Triangles without
-/// area are allowed and get no samples.
+/// area are allowed and get no samples, but at least one must have area.
 ///
-/// out: the mesh, to be freed with azulejo_mesh_free.
+/// O(vertices + triangles) time, and 12 bytes per vertex and per triangle. What later calls find
+/// out about the mesh is kept with it, for all threads: about a byte per triangle for sets, 12
+/// bytes per triangle and 4 per vertex for relaxation and remeshing, 100 per triangle for
+/// iterations of AZULEJO_ENGINE_EMBREE.
 ///
-/// O(vertices + triangles).
-///
-/// Memory: 12 bytes per vertex, 12 per triangle. What later calls make of the mesh whatever the
-/// radius and the seed is kept with it, so that the next call does not pay for it again, on any
-/// thread, and is freed with it: for any set, a summary of areas and edges, half a byte per
-/// triangle, and one byte more from the second set of few samples or the first of many on (with a
-/// mask, 4 bytes more for each that it keeps); for relaxation and triangulation, which edges are
-/// shared, 12 bytes per triangle and 4 per vertex; for iterations of AZULEJO_ENGINE_EMBREE,
-/// Embree's scene, about 100 bytes per triangle, and its device (see azulejo_context_create). A
-/// mesh with other normals made from this one shares all that; one with another mask does not.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite, indices out of range,
-/// no triangles, and triangles without any area; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or
-/// triangles or more, and for sizes that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
+/// Errors: AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or triangles or more;
+/// AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_create(
     positions: *const f32,
@@ -78,23 +68,15 @@ pub unsafe extern "C" fn azulejo_mesh_create(
 /// Loads a mesh from a file: Wavefront OBJ, PLY or STL (text and binary), distinguished by the
 /// extension .obj, .ply or .stl, otherwise by the first bytes. Polygons become fans of triangles,
 /// in the order of the faces. Vertices keep the order of the file; STL facets have three each,
-/// which are not merged.
+/// which are not merged. Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read; a
+/// corner without one gets a zero normal (see azulejo_mesh_with_normals). All else is ignored.
 ///
-/// Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read. In a file that has some, a
-/// corner without a normal, or with one that is not finite, gets a zero normal: see
-/// azulejo_mesh_with_normals. Points, lines, materials, texture coordinates, colours and normals of
-/// STL facets are ignored.
+/// path: the file name, terminated by a NUL, in the encoding of the system, on Windows in UTF-8.
 ///
-/// path: the file name, terminated by a NUL: in the encoding of the operating system, on Windows in
-/// UTF-8, whatever the code page.
+/// O(size of the file), on the calling thread, block by block.
 ///
-/// out: the mesh, to be freed with azulejo_mesh_free.
-///
-/// O(size of the file), on the calling thread. The file is read block by block and is never in
-/// memory as a whole; only an OBJ file with lines that go on in the next one, or with an error, is.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_IO if the file cannot be read;
-/// AZULEJO_ERROR_FORMAT if it is invalid, or has a mesh that azulejo_mesh_create would refuse.
+/// Errors: AZULEJO_ERROR_IO if the file cannot be read; AZULEJO_ERROR_FORMAT if it is invalid, or
+/// has a mesh that azulejo_mesh_create would refuse.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_load(path: *const c_char, out: *mut *mut azulejo_mesh) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -124,11 +106,8 @@ fn system_path(utf8: &CStr) -> Result<&Path, Failure> {
 /// shaded surface. Samples are the same with and without; azulejo_points_interpolated_normals has
 /// the normals at them.
 ///
-/// mesh: the mesh, which is not changed.
-///
-/// normals: of any length, x y z each, `stride_bytes` from one to the next; `normal_count` of them.
-/// Where the three normals of a triangle add up to zero at a sample, as zeros do, the sample gets
-/// the normal of the triangle.
+/// normals: of any length, x y z each, `stride_bytes` from one to the next. Where the three normals
+/// of a triangle add up to zero at a sample, the sample gets the normal of the triangle.
 ///
 /// normal_count: the number of vertices, if there are no indices.
 ///
@@ -139,14 +118,9 @@ fn system_path(utf8: &CStr) -> Result<&Path, Failure> {
 ///
 /// triangle_count: the number of triangles of the mesh; 0 if `normal_indices` is NULL.
 ///
-/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and mask
-/// with `mesh`; the two may be freed in any order.
-///
 /// O(normals + triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for normals that are not finite or not as many as there
-/// are vertices, and for indices out of range; AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 normals or
-/// more, and for sizes that overflow; AZULEJO_ERROR_OUT_OF_MEMORY.
+/// Errors: AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_with_normals(
     mesh: *const azulejo_mesh,
@@ -183,19 +157,13 @@ pub unsafe extern "C" fn azulejo_mesh_with_normals(
 /// both sides of them keep their distance through space. A mask may leave out everything; then a
 /// maximal set is empty.
 ///
-/// mesh: the mesh, which is not changed.
-///
 /// mask: one byte per triangle: 0 leaves it out, any other value keeps it.
 ///
 /// triangle_count: the number of triangles of the mesh.
 ///
-/// out: the new mesh, to be freed with azulejo_mesh_free. It shares vertices, triangles and normals
-/// with `mesh`; the two may be freed in any order.
-///
 /// O(triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for another count than that of the triangles;
-/// AZULEJO_ERROR_OUT_OF_MEMORY.
+/// Errors: AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_with_mask(
     mesh: *const azulejo_mesh,
@@ -220,22 +188,15 @@ pub unsafe extern "C" fn azulejo_mesh_with_mask(
 /// mask stay; normals of azulejo_mesh_with_normals or of a file go. With azulejo_mesh_points the
 /// samples of one mesh follow to the other.
 ///
-/// mesh: the mesh, which is not changed.
-///
-/// positions: the vertices, x y z each, `stride_bytes` from one to the next; `vertex_count` of
-/// them.
+/// positions: the vertices, x y z each, `stride_bytes` from one to the next.
 ///
 /// vertex_count: the number of vertices of the mesh.
 ///
 /// stride_bytes: a multiple of 4, at least 12.
 ///
-/// out: the new mesh, to be freed with azulejo_mesh_free. It shares triangles and mask with `mesh`;
-/// the two may be freed in any order.
-///
 /// O(vertices + triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT for positions that are not finite or leave no area, and
-/// for another count; AZULEJO_ERROR_OUT_OF_MEMORY.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also if no area is left; AZULEJO_ERROR_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_deform(
     mesh: *const azulejo_mesh,
@@ -257,19 +218,12 @@ pub unsafe extern "C" fn azulejo_mesh_deform(
 
 /// Evaluates places of a mesh, given by triangle and barycentrics, with the rounding of every
 /// sampler: places of samples of this mesh give the samples, bit for bit, and on a mesh of
-/// azulejo_mesh_deform each sample goes with its triangle.
+/// azulejo_mesh_deform each sample goes with its triangle. The result has normals, triangles and
+/// barycentrics, in the same order. O(count).
 ///
-/// triangles: the triangle of each place, below azulejo_mesh_triangle_count; `count` of them.
-/// Triangles without area and masked triangles are allowed.
+/// triangles: one for each place. Triangles without area and masked triangles are allowed.
 ///
-/// barycentrics: u v of each place, finite; `count` of them.
-///
-/// out: the positions with normals, triangles and barycentrics, in the same order, to be freed with
-/// azulejo_points_free.
-///
-/// O(count).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for sizes that overflow.
+/// barycentrics: u v of each place.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_points(
     mesh: *const azulejo_mesh,
@@ -294,52 +248,50 @@ pub unsafe extern "C" fn azulejo_mesh_points(
     })
 }
 
-/// 1 if the mesh carries normals besides those of its triangles, else 0; 0 for NULL.
+/// 1 if the mesh carries normals besides those of its triangles, else 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_has_normals(mesh: *const azulejo_mesh) -> u32 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.is_some_and(|mesh| mesh.shared.has_normals()).into()
 }
 
-/// The number of vertices; 0 for NULL.
+/// The number of vertices.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_vertex_count(mesh: *const azulejo_mesh) -> usize {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(0, |mesh| mesh.shared.positions().len())
 }
 
-/// The number of triangles, including masked ones; 0 for NULL.
+/// The number of triangles, including masked ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_triangle_count(mesh: *const azulejo_mesh) -> usize {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(0, |mesh| mesh.shared.triangles().len())
 }
 
-/// The vertices, x y z each, packed; valid until azulejo_mesh_free. NULL for NULL.
+/// The vertices, x y z each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_positions(mesh: *const azulejo_mesh) -> *const f32 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(std::ptr::null(), |mesh| array(mesh.shared.positions()))
 }
 
-/// The three vertices of each triangle, counter-clockwise seen from the front; valid until
-/// azulejo_mesh_free. NULL for NULL.
+/// The three vertices of each triangle, counter-clockwise seen from the front.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_indices(mesh: *const azulejo_mesh) -> *const u32 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(std::ptr::null(), |mesh| array(mesh.shared.triangles()))
 }
 
-/// The area of all triangles that no mask leaves out, in squared units of the positions; 0 for
-/// NULL. A maximal set of n samples has a radius of about sqrt(0.69656 * area / n), if that is
-/// small compared with the features of the surface.
+/// The area of all triangles that no mask leaves out. A maximal set of n samples has a radius of
+/// about sqrt(0.69656 * area / n), if that is small compared with the features of the surface.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_area(mesh: *const azulejo_mesh) -> f64 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(0.0, |mesh| mesh.shared.area())
 }
 
-/// Frees the mesh once no psp handle uses it any more. NULL is allowed.
+/// Frees the mesh; its memory is released once no psp handle uses it any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_free(mesh: *mut azulejo_mesh) {
     // SAFETY: handed on from the caller.

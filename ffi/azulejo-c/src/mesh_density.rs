@@ -14,77 +14,63 @@ use crate::points::azulejo_points;
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
-/// Gives the density at a position of a mesh.
-///
-/// With `at_vertices` it is called once for each vertex of the mesh, on the thread that made the
-/// call. Otherwise it is called on other threads, too, by several at once, unless the context has
-/// one thread, and must be thread-safe. It must give the same density for the same position, return
-/// (see "Callbacks" at the top), and must not call the library with the same context.
+/// Gives the density at a position of a mesh, at least 0. See "Callbacks" in azulejo.h; with
+/// `at_vertices` it is called once for each vertex, on the thread that made the call.
 ///
 /// user: the `function_user` of the azulejo_mesh_density.
 ///
 /// position: x y z of a place on the mesh.
-///
-/// Returns the density, finite and at least 0.
 pub type azulejo_mesh_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// The number of samples of a mesh per unit of area, from place to place. Densities are
-/// finite, at least 0, and not 0 everywhere; where they are 0 there are no samples, which
-/// does not affect the density beside it. One of `vertex_values`, `function` and `image` must be
-/// set, and one of `radius` and `count`.
+/// The number of samples of a mesh per unit of area, from place to place. Densities are at least 0,
+/// and not 0 everywhere; where they are 0 there are no samples, which does not affect the density
+/// beside it. One of `vertex_values`, `function` and `image` must be set, and one of `radius` and
+/// `count`; what is not set has its default, NULL or 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_mesh_density {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// 1: `function` is called at the vertices only, and interpolated on the triangles; nothing
-    /// need be known of it. Default 0. Must be 0 without a function.
+    /// 1: `function` is called at the vertices only, and interpolated on the triangles. Default 0.
     pub at_vertices: u32,
-    /// A density for each vertex of the mesh, interpolated on the triangles; used during the call
-    /// only. Default NULL.
+    /// A density for each vertex of the mesh, interpolated on the triangles.
     pub vertex_values: *const f32,
-    /// The number of vertex_values: that of the vertices of the mesh. Default 0.
+    /// The number of vertex_values: that of the vertices of the mesh.
     pub vertex_count: usize,
-    /// Gives the density at a position. Default NULL.
+    /// Gives the density at a position.
     pub function: azulejo_mesh_density_fn,
     /// Passed to `function`.
     pub function_user: *mut c_void,
-    /// The largest value of `function`, above 0. Must be 0, the default, without a function, and
-    /// with `at_vertices`.
+    /// The largest value of `function`, above 0. Must be 0 with `at_vertices`.
     pub largest: f64,
     /// The most by which `function` changes per unit of distance between two places of a triangle,
     /// at least 0. Coverage is proved with it, so it must hold: a violation that is detected makes
     /// the call fail. Where the density is 0, or nearly so, over many times the radius beside it,
-    /// the call would take very many evaluations and is refused: use `at_vertices` there. Must be
-    /// 0, the default, where `largest` must.
+    /// the call is refused as too much: use `at_vertices` there. Must be 0 where `largest` must.
     pub slope: f64,
     /// An image that is laid on the mesh by texture coordinates, linear between the centres of its
-    /// pixels, and repeated: `height` rows of `width` densities, the first row along v = 0. Used
-    /// during the call only. Default NULL.
+    /// pixels, and repeated: `height` rows of `width` densities, the first row along v = 0.
     pub image: *const f32,
-    /// The number of pixels in a row, which is as long as u goes from 0 to 1; at least 1. Must be
-    /// 0, the default, without an image.
+    /// The number of pixels in a row, which is as long as u goes from 0 to 1.
     pub width: usize,
-    /// The number of rows, at least 1. Must be 0, the default, without an image.
+    /// The number of rows.
     pub height: usize,
-    /// Texture coordinates, u v each, finite and at most 1e6 in absolute value: one for each
-    /// vertex, or one for each corner of each triangle, three times as many as there are triangles.
-    /// NULL, the default, without an image.
+    /// Texture coordinates of an image, u v each, at most 1e6 in absolute value: one for each
+    /// vertex, or one for each corner of each triangle.
     pub texture: *const f32,
-    /// The number of texture coordinates: that of the vertices or, if `by_corners` is 1, of the
-    /// corners.
+    /// The number of texture coordinates: that of the vertices or of the corners.
     pub texture_count: usize,
     /// 1: `texture` is by corners, so that those along a seam differ. Default 0: by vertices.
     pub by_corners: u32,
     /// Must be 0.
     pub reserved: u32,
     /// The radius at density 1, above 0: a maximal set of this radius has density 1. The radius at
-    /// a density d is this over sqrt(d). 0, the default, with a count.
+    /// a density d is this over sqrt(d).
     pub radius: f64,
     /// About how many samples the whole set has, above 0: the radius follows from the integral of
     /// the density. There are fewer where parts of the surface are nearer to each other than the
-    /// radius, and some more along the boundaries of the surface. In progressive order there are
-    /// exactly so many, and it must be a whole number. 0, the default, with a radius.
+    /// radius, and some more along boundaries. In progressive order there are exactly so many, and
+    /// it must be a whole number.
     pub count: f64,
 }
 
@@ -203,9 +189,7 @@ impl azulejo_mesh_density {
     }
 }
 
-/// Writes the defaults. `struct_size` is sizeof *density.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_density_init(
     density: *mut azulejo_mesh_density,
@@ -216,34 +200,24 @@ pub unsafe extern "C" fn azulejo_mesh_density_init(
 }
 
 /// Makes a maximal set of samples on a mesh with a density: azulejo_psp_adaptive_sample, where the
-/// radius at a density d is that at density 1 over sqrt(d). Embree is not used.
-///
-/// What azulejo_psp_adaptive_sample says of conflicts and of coverage holds for the radii that are
-/// returned. Where the density falls to 0 within a few radii, radii are limited to four times the
-/// least one on a piece of the surface of about that length.
+/// radius at a density d is that at density 1 over sqrt(d). What is said there of conflicts and of
+/// coverage holds for the radii that are returned. Where the density falls to 0 within a few radii,
+/// radii are limited to four times the least one on a piece of the surface of about that length.
 ///
 /// In progressive order ranks are radii at density 1, and a `count` is exact: the report has the
 /// radius at density 1, which is the last rank, and a bound of the radius at density 1 at which the
-/// set is maximal. All else is as azulejo_psp_adaptive_sample says. Sets of smaller counts are
-/// prefixes, bit for bit but for the radii, which are those of each set: levels of detail nest. A
-/// set with a radius shares all samples with ranks of at least `quotient` times that radius, of the
-/// first 100 those with ranks of at least 2.25 times it.
+/// set is maximal. Sets of smaller counts are prefixes, bit for bit but for the radii, which are
+/// those of each set: levels of detail nest. A set with a radius shares all samples with ranks of
+/// at least `quotient` times that radius, of the first 100 those of at least 2.25 times it.
 ///
-/// options: those of azulejo_psp_adaptive_sample without any radii: vertex_radii and radius must be
-/// NULL.
+/// options: vertex_radii and radius_function must be NULL, and what belongs to them 0.
 ///
-/// density: the density; used during the call only.
-///
-/// out: the samples with normals, triangles, barycentrics and radii, and ranks in progressive
-/// order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL; iterations, rays and hits are 0.
+/// out: the samples with normals, triangles, barycentrics and radii.
 ///
 /// O(samples + triangles) time for densities that change slowly.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative, not finite, or 0
-/// everywhere, above `largest`, or change faster than `slope`; AZULEJO_ERROR_TOO_LARGE as
-/// azulejo_psp_adaptive_sample; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a density above `largest` or one that changes
+/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE as azulejo_psp_adaptive_sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
     context: *const azulejo_context,

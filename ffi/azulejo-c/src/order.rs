@@ -6,7 +6,7 @@ use crate::status::Failure;
 
 /// In no particular order.
 pub const AZULEJO_ORDER_ANY: u32 = 0;
-/// Coarse to fine: the first points are a sparser set of the same kind, whatever their number.
+/// Coarse to fine: the first points, any number, are a sparser set of the same kind.
 pub const AZULEJO_ORDER_PROGRESSIVE: u32 = 1;
 
 /// The order that a constant stands for.

@@ -5,8 +5,8 @@ use azulejo_core::Points;
 use crate::boundary::array;
 use crate::handles::{self, handle};
 
-/// The samples that a call made. Immutable: several threads may read it at once. All its arrays
-/// have one entry per sample, in the same order, and are valid until azulejo_points_free.
+/// The samples that a call made. All its arrays have one entry per sample, in the same order; they
+/// are NULL for an empty set and where a set has no such array.
 pub struct azulejo_points {
     pub(crate) samples: Samples,
     /// The radius of each sample, where it varies.
@@ -67,8 +67,7 @@ pub unsafe extern "C" fn azulejo_points_count(points: *const azulejo_points) -> 
     }
 }
 
-/// The number of coordinates of a position: 2 for samples of the plane, 3 for samples on a mesh; 0
-/// for NULL.
+/// The number of coordinates of a position: 2 in the plane, 3 on a mesh; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_dimension(points: *const azulejo_points) -> u32 {
     // SAFETY: handed on from the caller.
@@ -79,11 +78,8 @@ pub unsafe extern "C" fn azulejo_points_dimension(points: *const azulejo_points)
     }
 }
 
-/// The positions, x y or x y z of each sample, interleaved; NULL for NULL and for an empty set.
-///
-/// Samples of the plane lie in domain_min <= x < domain_max. Samples on a mesh lie on their
-/// triangle, up to the rounding of the floats: they are computed from the barycentrics in double
-/// arithmetic and rounded once.
+/// The positions, x y or x y z of each sample, interleaved. Samples on a mesh lie on their
+/// triangle: they are computed from the barycentrics in double arithmetic and rounded once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_positions(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
@@ -94,69 +90,64 @@ pub unsafe extern "C" fn azulejo_points_positions(points: *const azulejo_points)
     }
 }
 
-/// The unit normals of the samples' triangles, x y z each, on the side from which their vertices
-/// appear counter-clockwise, whether or not the mesh carries normals of its own. NULL for NULL, an
-/// empty set and samples of the plane.
+/// On a mesh, the unit normals of the samples' triangles, x y z each, on the side from which their
+/// vertices appear counter-clockwise, whether or not the mesh carries normals of its own.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_normals(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
     unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.normals))
 }
 
-/// The normals that the mesh carries, from azulejo_mesh_with_normals or from its file, interpolated
-/// with the samples' barycentrics and normalised, x y z each; the normal of the triangle where the
-/// sum is zero. NULL for a mesh without normals, NULL, an empty set and samples of the plane.
+/// On a mesh that carries normals, from azulejo_mesh_with_normals or from its file: these,
+/// interpolated with the samples' barycentrics and normalised, x y z each; the normal of the
+/// triangle where the sum is zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_interpolated_normals(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
     unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.interpolated_normals))
 }
 
-/// The index of each sample's triangle; NULL for NULL, an empty set and samples of the plane.
+/// On a mesh, the index of each sample's triangle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_triangles(points: *const azulejo_points) -> *const u32 {
     // SAFETY: handed on from the caller.
     unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.triangles))
 }
 
-/// The barycentric coordinates u v of each sample in its triangle (a, b, c), as in Embree: the
-/// position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices are interpolated in the
-/// same manner. NULL for NULL, an empty set and samples of the plane.
+/// On a mesh, the barycentric coordinates u v of each sample in its triangle (a, b, c), as in
+/// Embree: the position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices follow in
+/// the same manner.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_barycentrics(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
     unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
 }
 
-/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
-/// in the units of the mesh; NULL for NULL, an empty set and all other sets.
+/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_radii(points: *const azulejo_points) -> *const f64 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.radii))
 }
 
-/// The ranks of the samples of a set in progressive order, in the units of the domain or the mesh:
-/// for each sample the distance to the nearest one that was there when it was accepted, or on
-/// meshes a little less, rounded down to a float. They never rise. The first i samples are at least
-/// as far apart as the i-th rank. NULL for NULL, an empty set and sets in any order.
+/// The ranks of the samples of a set in progressive order: for each sample the distance to the
+/// nearest one that was there when it was accepted, or on meshes a little less, rounded down to a
+/// float. They never rise. The first i samples are at least as far apart as the i-th rank, and no
+/// place is farther from all of them than the `quotient` of the options times the i-th rank, and 6
+/// float spacings; if i is below 100, than twice the rank, or the square of the quotient times it
+/// if that is more.
 ///
-/// No place is farther from the first i samples than the quotient of the options times the i-th
-/// rank, and 6 float spacings at the largest coordinate; if i is below 100, than twice the rank, or
-/// the square of the quotient times it if that is more. In the plane this holds from the samples
-/// of the coarsest level on, those with the rank of the first: one sample only, unless the options
-/// have a shorter `coarsest` radius. On meshes it holds for every i; the first rank is infinite.
-///
-/// Where radii vary, distances are divided by the mean of two radii: see
-/// azulejo_psp_adaptive_sample, and for a density azulejo_psp_adaptive_with_density.
+/// In the plane this holds from the samples of the coarsest level on, those with the rank of the
+/// first: one sample only, unless the options have a `coarsest`. On meshes it holds for every i;
+/// the first rank is infinite. Where radii vary, distances are divided by the mean of two radii:
+/// see azulejo_psp_adaptive_sample, and for a density azulejo_psp_adaptive_with_density.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_ranks(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.ranks))
 }
 
-/// The class of each sample of a set of several classes, its row in the matrix of azulejo_classes;
-/// NULL for NULL, an empty set and sets made without classes.
+/// The class of each sample of a set of several classes: its row in the matrix of azulejo_classes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_classes(points: *const azulejo_points) -> *const u32 {
     // SAFETY: handed on from the caller.
@@ -164,15 +155,14 @@ pub unsafe extern "C" fn azulejo_points_classes(points: *const azulejo_points) -
 }
 
 /// The ids of the samples of a psp handle that has been edited (azulejo_psp_erase): a sample keeps
-/// its id as long as it stands, and no other one ever gets it. NULL for NULL, an empty set and all
-/// other sets.
+/// its id as long as it stands, and no other one ever gets it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_ids(points: *const azulejo_points) -> *const u64 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.ids))
 }
 
-/// Frees the set with all its arrays. NULL is allowed.
+/// Frees the set with all its arrays.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_free(points: *mut azulejo_points) {
     // SAFETY: handed on from the caller.

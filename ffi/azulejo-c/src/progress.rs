@@ -5,13 +5,12 @@ use std::ops::ControlFlow;
 
 use azulejo_core::Progress;
 
-/// Called repeatedly during a call, on the thread that made it. See "Progress" at the top.
+/// Called repeatedly during a call: see "Progress" in azulejo.h. Returns 0 to continue, any other
+/// value to cancel the call.
 ///
 /// user: the progress_user of the options or of azulejo_context_watch.
 ///
-/// done: the fraction of the call that is done, from 0 to 1; it never decreases.
-///
-/// Returns 0 to continue, any other value to cancel the call.
+/// done: the fraction of the call that is done, from 0 to 1.
 pub type azulejo_progress_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, done: f64) -> u32>;
 
 /// A callback with its user, and the part of the caller's call that it is to see as a range of its

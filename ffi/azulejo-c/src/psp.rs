@@ -23,10 +23,7 @@ use crate::psp_report::azulejo_psp_report;
 use crate::status::{AZULEJO_ERROR_BUSY, AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
 
 /// A set of samples on a mesh that can grow. It keeps its context and its mesh, which may be freed
-/// before it.
-///
-/// One call at a time may change it; another one, from another thread or from the progress
-/// callback, is refused with AZULEJO_ERROR_BUSY. Several threads may copy its points at once.
+/// before it. Several threads may copy its points at once.
 pub struct azulejo_psp {
     context: azulejo_context,
     watch: Watch,
@@ -83,19 +80,17 @@ handle!(azulejo_psp);
 /// If two candidates of an iteration are too close, the one that its projector faces more squarely
 /// is kept: the default, which finds more samples. Existing samples are always kept.
 pub const AZULEJO_PRIORITY_SQUARENESS: u32 = 0;
-/// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2). Existing
-/// samples are always kept.
+/// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2).
 pub const AZULEJO_PRIORITY_PROJECTOR: u32 = 1;
 
 /// Ray packets of Embree find where patterns meet the mesh: the default.
 pub const AZULEJO_ENGINE_EMBREE: u32 = 0;
 /// Triangles are rasterised over the patterns in exact integer arithmetic (thesis section 3.4.3):
-/// the result does not depend on the machine or on Embree. The hits are those of Embree except for
-/// rounding, which moves points and edges relative to each other by up to 2e-7 of the mesh's
-/// diagonal: a point so close to an edge may hit the triangle on its other side.
+/// the result does not depend on the machine or on Embree. The hits are those of Embree but for
+/// rounding by up to 2e-7 of the mesh's diagonal.
 pub const AZULEJO_ENGINE_RASTERISER: u32 = 1;
 
-/// The number of iterations of azulejo_psp_options that stands for a rule.
+/// The `iterations` of azulejo_psp_options that stand for a rule.
 pub const AZULEJO_ITERATIONS_DEFAULT: u32 = 0xffff_ffff;
 
 /// Options of azulejo_psp_create and azulejo_psp_sample.
@@ -105,57 +100,45 @@ pub struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// The number of projections of patterns by azulejo_psp_sample, in 3 directions each, before it
-    /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0 if `maximal` is 1, on every mesh
-    /// and with every radius, since a set that is only filled is made sooner and prefers no
-    /// direction; 1 if `maximal` is 0. Where no more than 25,000 samples are expected, on the area
-    /// and along edges longer than the radius, a set that is only filled is filled in one piece and
-    /// is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples
-    /// than unbiased darts give, at the seams of the cubes. azulejo_psp_create refuses any value
-    /// but the default, azulejo_psp_sample 0 with a `maximal` of 0.
+    /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0, with which sets are made sooner
+    /// and prefer no direction, or 1 if `maximal` is 0; a `maximal` of 0 with 0 iterations is
+    /// refused. azulejo_psp_create refuses any value but the default.
     pub iterations: u32,
-    /// The smallest straight distance between two samples, in the units of the mesh: above 0, and
-    /// at least 64 times the spacing of floats at the largest coordinate. It has no default; with a
-    /// `count` it must be 0.
+    /// The smallest straight distance between two samples: above 0, and at least 64 float spacings.
+    /// It has no default; with a `count` it must be 0.
     pub radius: f64,
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
     /// 1, the default: azulejo_psp_sample fills all gaps. 0: it stops after the iterations, as the
-    /// thesis does, and leaves some per cent of the surface uncovered. azulejo_psp_create refuses
-    /// any value but the default.
+    /// thesis does, and leaves some per cent of the surface uncovered; not in azulejo_psp_create.
     pub maximal: u32,
     /// An AZULEJO_PRIORITY_ constant; default squareness.
     pub priority: u32,
-    /// An AZULEJO_ENGINE_ constant; default Embree, or the rasteriser in a library without Embree
-    /// (azulejo_has_embree).
+    /// An AZULEJO_ENGINE_ constant; default Embree, without which it is the rasteriser.
     pub engine: u32,
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well. The set is filled only, as by default:
-    /// `iterations` above 0 and a `maximal` of 0 are refused. Must be any in azulejo_psp_create.
+    /// well spread, and azulejo_points_ranks says how well. `iterations` above 0 and a `maximal` of
+    /// 0 are then refused. Must be any in azulejo_psp_create.
     pub order: u32,
-    /// Called during the call; default NULL: the callback of the context, if it has one. A psp
-    /// handle keeps it for all its calls.
+    /// Default NULL: the callback of the context. A psp handle keeps it for all its calls.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// The exact number of samples; default 0: as many as the radius gives. The report says which
-    /// radius they have, and a bound of the covering radius. The set is filled only, as in
-    /// progressive order. Must be 0 in azulejo_psp_create.
+    /// The exact number of samples; default 0: as many as the radius gives. The set is filled only,
+    /// as in progressive order. Must be 0 in azulejo_psp_create.
     pub count: usize,
-    /// Of a progressive order: every prefix of 100 samples and more covers the surface within this
-    /// times its last rank, 1.02 to 1.5; smaller ones within twice that rank, or the square of the
-    /// quotient times it if that is more. The smaller, the more levels there are, each of which
-    /// takes time. Default 0: 2^(1/8).
+    /// Of a progressive order: how many times longer the radius of each level is than that of the
+    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8).
     pub quotient: f64,
-    /// Samples that stand already, around which the set is made, x y z each; NULL, the default,
-    /// for none. They may lie anywhere, on the mesh or not, in any number. They are never moved,
-    /// dropped or compared with each other, and are not returned: new samples are at least the
-    /// clearance from each of them, and every place of the surface is within the radius of a new
-    /// sample or within the clearance of a given one. A psp handle copies what it needs of them.
+    /// Samples that stand already, x y z each, anywhere, on the mesh or not; NULL, the default, for
+    /// none. They are never moved, dropped or compared with each other, and are not returned: new
+    /// samples are at least the clearance from each of them, and every place of the surface is
+    /// within the radius of a new sample or within the clearance of a given one. A psp handle
+    /// copies what it needs of them.
     pub given_positions: *const f32,
-    /// The clearance of each given sample, finite and 0 or more, in the units of the mesh; 0 has
-    /// no effect. NULL, the default: all have the radius of the set. Must not be NULL with a
-    /// `count`, unless there are no given samples. For azulejo_psp_sample_classes a row for each
-    /// given sample, with a clearance for each class.
+    /// The clearance of each, 0 or more; 0 has no effect. NULL, the default: all have the radius of
+    /// the set, which with a `count` is refused. For azulejo_psp_sample_classes a row for each
+    /// given sample, with a clearance for each class (NULL: its own radius).
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
@@ -295,9 +278,7 @@ fn engine(value: u32) -> Result<Engine, Failure> {
     }
 }
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_options_init(
     options: *mut azulejo_psp_options,
@@ -309,18 +290,13 @@ pub unsafe extern "C" fn azulejo_psp_options_init(
 
 /// Makes an empty set on a mesh. It does not report progress.
 ///
-/// mesh: kept by the handle as long as it needs it.
-///
 /// options: `iterations`, `maximal`, `count` and `order` must have their defaults: here each call
 /// says what it does.
 ///
-/// out: the handle, to be freed with azulejo_psp_free.
-///
 /// At most O(triangles + given samples) time.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a radius below 64 times the spacing of floats
-/// at the largest coordinate, and for a given sample out of range, with its index;
-/// AZULEJO_ERROR_TOO_LARGE, with the estimated number of samples on the surface without given ones.
+/// Errors: AZULEJO_ERROR_TOO_LARGE has the estimated number of samples on the surface without given
+/// ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_create(
     context: *const azulejo_context,
@@ -346,26 +322,18 @@ pub unsafe extern "C" fn azulejo_psp_create(
 
 /// Adds samples: projects patterns of samples onto the mesh, in each iteration along three
 /// orthogonal directions of a random frame, and keeps what does not conflict with the set (thesis
-/// chapter 3). Samples are only added. Two calls add what one call with the sum of their iterations
-/// adds. The first call prepares the mesh for the engine.
+/// chapter 3). Two calls add what one call with the sum of their iterations adds. The first call
+/// prepares the mesh for the engine.
 ///
-/// An iteration is not made, and not reported, where the box of the mesh is out of all proportion
-/// to its surface, as for small parts far apart: with more than 20 rays per sample that there is
-/// room for, and more than 10 million rays in all. There azulejo_psp_fill is faster.
-///
-/// With AZULEJO_ENGINE_EMBREE the bytes depend on the version of Embree and on the instruction set:
-/// the last bits of a hit may differ, and with them which of two candidates is taken.
-///
-/// iterations: how often; 0 does nothing. A set that has been edited makes none.
-///
-/// report: what this call did, or NULL.
+/// iterations: how many, 0 or more. A set that has been edited makes none. None is made, nor
+/// reported, where the box of the mesh is out of all proportion to its surface, as for small parts
+/// far apart: above 20 rays per sample that there is room for and 10 million in all.
 ///
 /// O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
 /// O(triangles * log triangles).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a `cosine` above -1; AZULEJO_ERROR_BUSY while
-/// another call uses the handle; AZULEJO_ERROR_EMBREE; AZULEJO_ERROR_CANCELLED: the set then holds
-/// what was finished, and can still grow.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `cosine` above -1; AZULEJO_ERROR_EMBREE;
+/// AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_advance(
     psp: *mut azulejo_psp,
@@ -381,16 +349,12 @@ pub unsafe extern "C" fn azulejo_psp_advance(
 }
 
 /// Makes the set maximal: finds the parts of the surface that are farther than the radius from
-/// every sample and throws darts into them until there is none.
-///
-/// A set that has been edited is filled as by azulejo_psp_refill, with the seed of its options.
-///
-/// report: what this call did, or NULL.
+/// every sample and throws darts into them until there is none. A set that has been edited is
+/// filled as by azulejo_psp_refill, with the seed of its options.
 ///
 /// O(samples + triangles) time, more for parts that darts hit rarely.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
-/// AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
+/// Errors: AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_fill(psp: *mut azulejo_psp, report: *mut azulejo_psp_report) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -405,15 +369,8 @@ pub unsafe extern "C" fn azulejo_psp_fill(psp: *mut azulejo_psp, report: *mut az
     unsafe { change(psp, report, fill) }
 }
 
-/// Copies the set in its present state; one that has been edited by rising ids. Several threads may
-/// do so at once.
-///
-/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
-///
-/// O(samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
-/// handle.
+/// Copies the set in its present state, with normals, triangles and barycentrics; one that has been
+/// edited by rising ids. Several threads may do so at once. O(samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *mut azulejo_points) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -426,7 +383,7 @@ pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *
 }
 
 /// Frees the handle, but not the points taken from it. Must not be called from its own progress
-/// callback. NULL is allowed.
+/// callback.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
     // SAFETY: handed on from the caller.
@@ -440,22 +397,17 @@ pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
 /// report, and every place of the surface is within `covering_radius` of one, in most cases less
 /// than 1.1 times that radius. It takes about twice the time of a set of known radius.
 ///
-/// In progressive order the samples are sorted coarse to fine (azulejo_points_ranks), from a single
-/// one on: the first of them, any number, are at least as far apart as their last rank, and cover
-/// the surface within `quotient` times that, or, if they are less than 100, within twice that (the
-/// square of the quotient times it if that is more). A set with a smaller count is a prefix of one
-/// with a larger count, bit for bit, for the same mesh, quotient and seed: levels of detail nest.
-/// Sets of two radii share all samples with ranks of at least `quotient` times the larger radius,
-/// of the first 100 those with ranks of at least 2.25 times it. It takes several times
-/// as long as a set in any order (docs/order.md), and more with many triangles per sample: some
-/// log(diagonal / radius) / log(quotient) levels visit all triangles.
+/// In progressive order the samples are sorted coarse to fine, from a single one on
+/// (azulejo_points_ranks). A set with a smaller count is a prefix of one with a larger count, bit
+/// for bit, for the same mesh, quotient and seed: levels of detail nest. Sets of two radii share
+/// all samples with ranks of at least `quotient` times the larger radius, of the first 100 those
+/// with ranks of at least 2.25 times it. It takes several times as long as a set in any order, and
+/// more with many triangles per sample: log(diagonal / radius) / log(quotient) levels visit all.
 ///
-/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
+/// out: the samples with normals, triangles and barycentrics.
 ///
-/// report: what the call did, or NULL.
-///
-/// Complexity and errors: those of the three; AZULEJO_ERROR_INVALID_ARGUMENT also for a `count`
-/// that is more than floats can carry on the mesh.
+/// Errors: those of the three; AZULEJO_ERROR_INVALID_ARGUMENT also for a `count` that is more than
+/// floats can carry on the mesh. Complexity is theirs, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_sample(
     context: *const azulejo_context,

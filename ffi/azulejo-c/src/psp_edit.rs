@@ -26,7 +26,7 @@ pub struct azulejo_region {
     pub reserved: u32,
     /// The lowest coordinates of the box; default minus infinity.
     pub min: [f64; 3],
-    /// The highest coordinates of the box, not below `min`; default infinity.
+    /// The highest coordinates, not below `min`; default infinity.
     pub max: [f64; 3],
     /// The centre of the ball, finite; default 0.
     pub centre: [f64; 3],
@@ -50,9 +50,7 @@ impl azulejo_region {
     }
 }
 
-/// Writes the defaults: all of space. `struct_size` is sizeof *region.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults: all of space.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_region_init(region: *mut azulejo_region, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -72,9 +70,6 @@ pub unsafe extern "C" fn azulejo_region_init(region: *mut azulejo_region, struct
 /// NULL if they are not wanted.
 ///
 /// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
-/// AZULEJO_ERROR_BUSY while another call uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_erase(
     psp: *mut azulejo_psp,
@@ -98,9 +93,6 @@ pub unsafe extern "C" fn azulejo_psp_erase(
 /// erased: as in azulejo_psp_erase.
 ///
 /// O(samples in the cubes of 24 radii that they are in).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
-/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_erase_ids(
     psp: *mut azulejo_psp,
@@ -124,9 +116,8 @@ pub unsafe extern "C" fn azulejo_psp_erase_ids(
 ///
 /// O(points + samples in the cubes of 24 radii around them).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
-/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
-/// another call uses the handle. Nothing is put back then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for samples that are not this set's, that stand
+/// already, or that are too close to a sample or a given sample by now.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *const azulejo_points) -> azulejo_status {
     boundary::call(|| {
@@ -153,9 +144,6 @@ pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *con
 /// erased: as in azulejo_psp_erase.
 ///
 /// O(samples in the cubes of 24 radii that the clearances touch), for each.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
-/// Nothing is changed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_add_given(
     psp: *mut azulejo_psp,
@@ -183,9 +171,6 @@ pub unsafe extern "C" fn azulejo_psp_add_given(
 /// azulejo_psp_refill.
 ///
 /// O(given samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
-/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_remove_given(
     psp: *mut azulejo_psp,
@@ -211,13 +196,8 @@ pub unsafe extern "C" fn azulejo_psp_remove_given(
 /// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
 /// if they are not wanted.
 ///
-/// report: what this call did, or NULL.
-///
 /// O(surface in and around the edited regions + given samples); the first call on a handle also
 /// O(triangles).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
-/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_refill(
     psp: *mut azulejo_psp,
@@ -250,15 +230,13 @@ pub unsafe extern "C" fn azulejo_psp_refill(
 /// options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
 /// defaults.
 ///
-/// out: the samples with normals, triangles and barycentrics, to be freed with azulejo_points_free.
+/// out: the samples with normals, triangles and barycentrics.
 ///
 /// report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after` are
 /// -1.
 ///
 /// O(surface in the region + given samples + triangles / 16); the first call on a mesh
 /// O(triangles).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_sample_region(
     context: *const azulejo_context,

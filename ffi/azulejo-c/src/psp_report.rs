@@ -11,7 +11,7 @@ use crate::status::azulejo_status;
 pub struct azulejo_psp_report {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// The iterations of projection that the call made.
+    /// The iterations that the call made.
     pub iterations: u32,
     /// The samples of the set after the call.
     pub samples: u64,
@@ -22,43 +22,37 @@ pub struct azulejo_psp_report {
     pub rays: u64,
     /// The places where rays met the mesh.
     pub hits: u64,
-    /// The hits that were rejected because of an earlier one on the same ray.
+    /// The hits rejected because of an earlier one on the same ray.
     pub restart_conflicts: u64,
     /// The darts thrown into uncovered surface.
     pub darts: u64,
-    /// The hits and darts that were rejected because of other samples.
+    /// The hits and darts rejected because of other samples.
     pub conflicts: u64,
     /// The time of the call in seconds.
     pub seconds: f64,
-    /// The part of it in which patterns and, for Embree, the scene were made: in the first
-    /// iteration of a set.
+    /// The part of it in which patterns and, for Embree, the scene were made.
     pub prepare_seconds: f64,
     /// The part of it in which hits were found.
     pub project_seconds: f64,
     /// The part of it in which samples were chosen among the hits.
     pub merge_seconds: f64,
-    /// The part of it in which uncovered surface was searched for and filled.
+    /// The part of it in which gaps were searched for and filled.
     pub fill_seconds: f64,
     /// The radius of the set in units of d_max after the call: about 0.78 for a maximal set, 0 for
-    /// no samples. The smallest distance is taken to be the radius, which it hardly exceeds in
-    /// large sets.
+    /// no samples. The smallest distance hardly exceeds the radius in large sets.
     pub rho: f64,
     /// If the call filled gaps: the fraction of the area that was uncovered before, estimated with
-    /// random points on the parts of the surface that no single sample covered when the search came
-    /// to them: at least 1,024, or above about 25,000 samples 64 for each cube of 24 radii.
-    /// Else -1.
+    /// random points (docs/design/surface.md). Else -1.
     pub uncovered_before: f64,
-    /// If the call filled gaps: the fraction of the area that is uncovered after it, which is 0.
-    /// Else -1.
+    /// If the call filled gaps: 0, the fraction that is uncovered after it. Else -1.
     pub uncovered_after: f64,
     /// The radius of the set: the one asked for or, for a count, the one that was found. No two
     /// samples are closer. 0 where radii vary; in progressive order then what they are multiplied
     /// by, which is 1, or for a density the radius at density 1.
     pub radius: f64,
-    /// A bound of the covering radius, where one is known: no place is farther from all samples, up
-    /// to 6 spacings of floats at the largest coordinate. The radius itself after gaps were filled,
-    /// a little more for a count. Where `radius` is not a distance, the bound of what radii are
-    /// multiplied by. Else -1.
+    /// A bound of the covering radius, up to 6 float spacings: the radius itself after gaps were
+    /// filled, a little more for a count. Where `radius` is not a distance, the bound of what radii
+    /// are multiplied by. -1 where none is known.
     pub covering_radius: f64,
 }
 
@@ -109,9 +103,7 @@ impl From<Report> for azulejo_psp_report {
     }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_report_init(
     report: *mut azulejo_psp_report,

@@ -12,9 +12,9 @@ use crate::mesh::azulejo_mesh;
 use crate::progress::Watch;
 use crate::status::azulejo_status;
 
-/// The report of azulejo_dcr_remesh. The mesh is a manifold if
-/// `non_manifold_vertices` is 0, and closed if `boundary_edges` is 0 too: no edge has more than two
-/// triangles, and two triangles at an edge are wound alike.
+/// The report of azulejo_dcr_remesh. The mesh is a manifold if `non_manifold_vertices` is 0, and
+/// closed if `boundary_edges` is 0 too: no edge has more than two triangles, and two triangles at
+/// an edge are wound alike.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_remesh_report {
@@ -24,9 +24,9 @@ pub struct azulejo_dcr_remesh_report {
     pub reserved: u32,
     /// The triangles of the mesh.
     pub triangles: u64,
-    /// Those of them that not all of their three corners have in their Delaunay stars.
+    /// Those that not all of their three corners have in their Delaunay stars.
     pub disputed: u64,
-    /// The triangles of stars that are not in the mesh because they do not go with others.
+    /// The triangles of stars that do not go with others and are not in the mesh.
     pub left_out: u64,
     /// The edges with one triangle, which are the boundary.
     pub boundary_edges: u64,
@@ -38,14 +38,13 @@ pub struct azulejo_dcr_remesh_report {
     pub non_manifold_vertices: u64,
     /// The samples without a triangle.
     pub unused_vertices: u64,
-    /// Euler's characteristic, vertices - edges + triangles, without unused vertices: 2 for a
-    /// sphere, 0 for a torus, 1 for a disk.
+    /// Vertices - edges + triangles, all of them used: 2 for a sphere, 0 for a torus, 1 for a disk.
     pub euler: i64,
     /// The smallest angle of all triangles, in degrees.
     pub smallest_angle: f64,
     /// The largest angle of all triangles, in degrees.
     pub largest_angle: f64,
-    /// The mean over all triangles of their smallest angle, in degrees.
+    /// The mean of the triangles' smallest angles, in degrees.
     pub mean_smallest_angle: f64,
 }
 
@@ -85,9 +84,7 @@ impl From<RemeshReport> for azulejo_dcr_remesh_report {
     }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_remesh_report_init(
     report: *mut azulejo_dcr_remesh_report,
@@ -102,25 +99,19 @@ pub unsafe extern "C" fn azulejo_dcr_remesh_report_init(
 /// relaxed ones give the better angles. The triangles are those of the samples' Delaunay stars that
 /// go together.
 ///
-/// No edge has more than two triangles, and two triangles at an edge are wound alike. Samples that
-/// resolve the features of a closed surface, wound alike everywhere, give a closed manifold of the
-/// same topology. Where they do not, as on thin blades and between faces that are wound against
-/// each other, there are holes. Triangles do not cross open boundaries: the new boundary is that of
-/// the outermost samples.
+/// Samples that resolve the features of a closed surface, wound alike everywhere, give a closed
+/// manifold of the same topology. Where they do not, as on thin blades and between faces that are
+/// wound against each other, there are holes. Triangles do not cross open boundaries: the new
+/// boundary is that of the outermost samples.
 ///
 /// triangles, barycentrics: as for azulejo_dcr_surface_relax.
 ///
-/// out: the new mesh, to be freed with azulejo_mesh_free. Vertex i is sample i, also if it has no
-/// triangle; triangles are wound as those of the old mesh under their corners. See
-/// azulejo_mesh_positions and azulejo_mesh_indices.
+/// out: the new mesh. Vertex i is sample i, also if it has no triangle; triangles are wound as
+/// those of the old mesh under their corners.
 ///
-/// report: what was made, or NULL.
+/// O(n log n) time and O(n) memory in samples and triangles.
 ///
-/// O(n log n) time and O(n) memory in samples and triangles. Progress is that of
-/// azulejo_context_watch.
-///
-/// Errors: those of azulejo_dcr_surface_relax; AZULEJO_ERROR_INVALID_ARGUMENT for samples that form
-/// no triangle; AZULEJO_ERROR_CANCELLED.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for samples that form no triangle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_remesh(
     context: *const azulejo_context,

@@ -12,10 +12,8 @@ use crate::status::{Failure, azulejo_status};
 
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 /
 /// count on a square grid of frequencies f. Its mean is 1 for a Poisson process (Ulichney 1988;
-/// Lagae and Dutre 2008). Immutable: several threads may use it at once.
-///
-/// Frequencies are in units of sqrt(count / area), so that sets of different size can be compared;
-/// the first ring of blue noise lies near 1.
+/// Lagae and Dutre 2008). Frequencies are in units of sqrt(count / area), so that sets of different
+/// size can be compared; the first ring of blue noise lies near 1.
 pub struct azulejo_spectrum {
     periodogram: Periodogram,
 }
@@ -26,14 +24,14 @@ handle!(azulejo_spectrum);
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_annulus {
-    /// The mean length of its frequencies, in units of sqrt(count / area).
+    /// The mean length of its frequencies.
     pub frequency: f64,
     /// The mean power: the radial mean; 1 for a Poisson process.
     pub power: f64,
     /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0
     /// dB), the mean of n such spectra has 1/n; preferred directions give more.
     pub anisotropy: f64,
-    /// The number of its frequencies, a frequency and its opposite counted once; at least 2.
+    /// The number of its frequencies, at least 2; one and its opposite count once.
     pub count: u64,
 }
 
@@ -45,17 +43,16 @@ pub struct azulejo_spectrum_report {
     pub struct_size: u32,
     /// Always 0.
     pub reserved: u32,
-    /// The distances of neighbouring columns and rows, in units of sqrt(count / area).
+    /// The distances of neighbouring columns and rows.
     pub frequency_step: [f64; 2],
-    /// The effective Nyquist frequency, in units of sqrt(count / area): half of the largest
-    /// frequency up to which the mean power is below 0.1 (Heck et al. 2013). 0.5 for a square
-    /// lattice, 0.537 for a hexagonal one, 0 for a Poisson process; the tables of the literature
-    /// divide it by 0.5. -1 if the spectrum ends too early; frequencies up to 1.5 mostly suffice.
+    /// The effective Nyquist frequency: half of the largest frequency up to which the mean power is
+    /// below 0.1 (Heck et al. 2013). 0.5 for a square lattice, 0.537 for a hexagonal one, 0 for a
+    /// Poisson process; the tables of the literature divide it by 0.5. -1 if the spectrum ends too
+    /// early; frequencies up to 1.5 mostly suffice.
     pub effective_nyquist: f64,
-    /// The oscillation, a number: ten times the root mean square of the power's deviation from 1,
-    /// by area, from where it first reaches 0.98 to 5 sqrt(count / area) above (Heck et al. 2013).
-    /// 0 for a Poisson process. -1 if the spectrum ends too early; frequencies up to 6.5 mostly
-    /// suffice.
+    /// The oscillation: ten times the root mean square of the power's deviation from 1, by area,
+    /// from the frequency where it first reaches 0.98 to 5 above it (Heck et al. 2013). 0 for a
+    /// Poisson process. -1 if the spectrum ends too early; frequencies up to 6.5 mostly suffice.
     pub oscillation: f64,
     /// The scatter of the power about its radial mean, over the frequencies from `low` to `high`: 1
     /// for one set without order over long distances, 1/n for the mean of n, more if parts are
@@ -64,7 +61,7 @@ pub struct azulejo_spectrum_report {
     /// The largest power of a frequency from `low` to `high`, over the radial mean there. By chance
     /// alone it is about ln n for n frequencies of one set. 0 if there are no such frequencies.
     pub peak: f64,
-    /// That frequency, x y, in units of sqrt(count / area); its opposite has the same power.
+    /// That frequency, x y; its opposite has the same power.
     pub peak_frequency: [f64; 2],
 }
 
@@ -78,9 +75,7 @@ growing!(azulejo_spectrum_report requires frequency_step {
     peak_frequency: [0.0; 2],
 });
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_report_init(
     report: *mut azulejo_spectrum_report,
@@ -91,14 +86,12 @@ pub unsafe extern "C" fn azulejo_spectrum_report_init(
 }
 
 /// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double
-/// arithmetic: the power differs from that of the direct sum by no more than its rounding to float.
+/// arithmetic: exact up to the rounding to float. A periodic domain has exact frequencies, whole
+/// numbers of waves per period. In a bounded domain points are weighted by a taper that falls to 0
+/// at the ellipse inside it, so that its edges do not show in the spectrum.
 ///
-/// A periodic domain has exact frequencies, whole numbers of waves per period. A bounded domain is
-/// treated as a window of a larger set: points are weighted by a taper that falls to 0 at the
-/// ellipse inside it, so that its edges do not show in the spectrum.
-///
-/// set: the points, which must be finite but may lie outside the domain. In a bounded domain at
-/// least one must lie inside the ellipse.
+/// set: the points may lie outside the domain. In a bounded domain at least one must lie inside the
+/// ellipse.
 ///
 /// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
 /// width and 1 / height.
@@ -107,12 +100,7 @@ pub unsafe extern "C" fn azulejo_spectrum_report_init(
 /// the spectra of large sets reach as far as those of small ones. For all figures, size *
 /// frequency_stride of about 13 * sqrt(count) is enough on a square.
 ///
-/// out: the spectrum, to be freed with azulejo_spectrum_free.
-///
-/// O(count + size^2 * log size) time, and about 40 bytes of memory per point and per frequency
-/// during the call.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// O(count + size^2 * log size) time, and about 40 bytes of memory per point and per frequency.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_create(
     context: *const azulejo_context,
@@ -134,17 +122,10 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
     })
 }
 
-/// Makes the mean of the spectra of sets of one kind. The noise of a single spectrum decreases with
-/// the square root of their number. It takes no context: it runs on the calling thread and does not
-/// report progress.
+/// Makes the mean of the spectra of sets of one kind, whose noise decreases with the square root of
+/// their number. O(count * size^2) time and memory, on the calling thread.
 ///
-/// spectra: `count` spectra, at least 1, all of one size.
-///
-/// out: the mean, to be freed with azulejo_spectrum_free; the spectra still belong to the caller.
-///
-/// O(count * size^2) time and memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// spectra: `count` spectra, at least 1, all of one size. They still belong to the caller.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_mean(
     spectra: *const *const azulejo_spectrum,
@@ -161,7 +142,7 @@ pub unsafe extern "C" fn azulejo_spectrum_mean(
     })
 }
 
-/// The number of frequencies per side; 0 for NULL.
+/// The number of frequencies per side.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_size(spectrum: *const azulejo_spectrum) -> u32 {
     // SAFETY: handed on from the caller.
@@ -169,7 +150,7 @@ pub unsafe extern "C" fn azulejo_spectrum_size(spectrum: *const azulejo_spectrum
 }
 
 /// The power, size * size numbers, row by row from the lowest frequency. Frequency 0, whose power
-/// is set to 0, is in row and column size / 2. Valid until azulejo_spectrum_free. NULL for NULL.
+/// is set to 0, is in row and column size / 2.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectrum) -> *const f32 {
     // SAFETY: handed on from the caller.
@@ -177,10 +158,10 @@ pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectru
         .map_or(std::ptr::null(), |spectrum| array(spectrum.periodogram.power()))
 }
 
-/// The radial curves of a spectrum, mean and anisotropy, out to its largest circle.
+/// The radial curves of a spectrum, mean and anisotropy, out to its largest circle. O(size^2) time
+/// on the calling thread.
 ///
-/// width: the width of an annulus, above 0, in units of sqrt(count / area). Annuli of fewer than
-/// two frequencies are left out.
+/// width: the width of an annulus, above 0. Annuli of fewer than two frequencies are left out.
 ///
 /// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
 /// `capacity` is 0.
@@ -188,10 +169,6 @@ pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectru
 /// annulus_size: sizeof(azulejo_annulus).
 ///
 /// out_count: their number, which may exceed the capacity.
-///
-/// O(size^2) time on the calling thread.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_radial(
     spectrum: *const azulejo_spectrum,
@@ -228,18 +205,11 @@ impl From<Annulus> for azulejo_annulus {
 }
 
 /// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.
-///
-/// width: the width of the annuli of the radial mean, above 0, in units of sqrt(count / area); 0.05
-/// suits sets of some thousand points.
-///
-/// low, high: the range of frequencies for contrast and peak, finite, in units of sqrt(count /
-/// area).
-///
-/// out: the report.
-///
 /// O(size^2) time on the calling thread.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// width: that of the annuli of the radial mean, above 0; 0.05 suits some thousand points.
+///
+/// low, high: the range of frequencies for contrast and peak.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_measure(
     spectrum: *const azulejo_spectrum,
@@ -280,7 +250,7 @@ fn unless_too_small(figure: azulejo_core::Result<f64>) -> azulejo_core::Result<f
     }
 }
 
-/// Frees the spectrum. NULL is allowed.
+/// Frees the spectrum.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_spectrum_free(spectrum: *mut azulejo_spectrum) {
     // SAFETY: handed on from the caller.

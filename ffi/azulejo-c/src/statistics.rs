@@ -11,7 +11,7 @@ use crate::domain::{PlaneSet, azulejo_plane_set};
 use crate::growing::{self, Growing, Output, growing};
 use crate::status::{Failure, azulejo_status};
 
-/// The result of azulejo_plane_measure.
+/// The result of azulejo_plane_measure. Distances between points are infinite for fewer than two.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_plane_report {
@@ -21,19 +21,16 @@ pub struct azulejo_plane_report {
     pub reserved: u32,
     /// The number of points.
     pub count: u64,
-    /// The smallest distance between two points, in the units of the domain; infinite for fewer
-    /// than two.
+    /// The smallest distance between two points.
     pub smallest_distance: f64,
-    /// The mean distance from a point to its nearest neighbour, in the units of the domain;
-    /// infinite for fewer than two points.
+    /// The mean distance from a point to its nearest neighbour.
     pub mean_distance: f64,
-    /// d_max, in the units of the domain; infinite for no point.
+    /// d_max; infinite for no point.
     pub hexagonal_distance: f64,
     /// The smallest distance in units of d_max: about 0.77 for maximal Poisson-disk sets, at most 1
     /// on a periodic domain.
     pub rho: f64,
-    /// The covering radius, in the units of the domain: see azulejo_plane_covering_radius. d_max /
-    /// sqrt(3) for a hexagonal lattice; infinite for no point.
+    /// The covering radius: d_max / sqrt(3) for a hexagonal lattice; infinite for no point.
     pub covering_radius: f64,
     /// The bond order psi6, 0 to 1: the mean over the points of |sum of exp(6 i angle)| / n for the
     /// n directions of their Delaunay neighbours (Nelson and Halperin 1979). 1 for a hexagonal
@@ -42,20 +39,19 @@ pub struct azulejo_plane_report {
     /// The number of Delaunay triangles; in a bounded domain those that do not cross its edges when
     /// the set is mirrored at them.
     pub triangles: u64,
-    /// The fraction of triangles with an angle above 90 degrees, 0 to 1.
+    /// The fraction of triangles with an angle above 90 degrees.
     pub obtuse: f64,
-    /// The fraction of triangles with an angle below 30 degrees, 0 to 1.
+    /// The fraction of triangles with an angle below 30 degrees.
     pub below_30_degrees: f64,
-    /// The mean length of the triangles' edges, in the units of the domain.
+    /// The mean length of the triangles' edges.
     pub edge_mean: f64,
-    /// The variance of the lengths of the edges over their squared mean.
+    /// The variance of the edges' lengths over their squared mean.
     pub edge_variation: f64,
-    /// The variance of the areas of the triangles over their squared mean.
+    /// The variance of the triangles' areas over their squared mean.
     pub area_variation: f64,
-    /// The fraction of the angles of all triangles that are below 30 degrees, 0 to 1.
+    /// The fraction of all angles that are below 30 degrees.
     pub angles_below_30_degrees: f64,
-    /// The fraction of triangles whose area is farther than 4 standard deviations from the mean, 0
-    /// to 1.
+    /// The fraction of triangles whose area is farther than 4 standard deviations from the mean.
     pub beyond_4_sigma: f64,
 }
 
@@ -78,9 +74,7 @@ growing!(azulejo_plane_report requires count {
     beyond_4_sigma: 0.0,
 });
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_report_init(
     report: *mut azulejo_plane_report,
@@ -91,14 +85,7 @@ pub unsafe extern "C" fn azulejo_plane_report_init(
 }
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
-///
-/// set: the points.
-///
-/// out: the report.
-///
-/// O(count * log count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// O(count * log count) time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
     context: *const azulejo_context,
@@ -139,21 +126,15 @@ fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_repor
     }
 }
 
-/// The histogram of the distances from points of the plane to their nearest neighbours.
-///
-/// set: the points.
+/// The histogram of the distances from points of the plane to their nearest neighbours. Histograms
+/// of several sets may be added. O(count) time.
 ///
 /// reach: where the last bin ends, above 0, in units of d_max.
 ///
 /// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
 ///
 /// out: an array of `bins` numbers: how many points have their nearest neighbour at such a
-/// distance. Distances of `reach` and more, and a single point, are in no bin. Histograms of
-/// several sets may be added.
-///
-/// O(count) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
+/// distance. Distances of `reach` and more, and a single point, are in no bin.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
     context: *const azulejo_context,
@@ -180,11 +161,8 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 
 /// The radial distribution function g of points of the plane, also called pair correlation: the
 /// density of other points at a distance from a point, over the mean density. 1 for a Poisson
-/// process; a hexagonal lattice has peaks at 1, sqrt(3), 2, ... d_max.
-///
-/// In a bounded domain each pair is weighted by one over the fraction of the domain that overlaps
-/// with the domain translated by their difference, which corrects for the edges (Ohser and Stoyan
-/// 1981).
+/// process; a hexagonal lattice has peaks at 1, sqrt(3), 2, ... d_max. In a bounded domain pairs
+/// are weighted to correct for the edges (Ohser and Stoyan 1981). O(count * (1 + reach^2)) time.
 ///
 /// set: the points, at least 2.
 ///
@@ -195,10 +173,6 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 ///
 /// out: an array of `bins` numbers: the mean of g in each bin. For sets of one kind and count, the
 /// mean of these over the sets is their g.
-///
-/// O(count * (1 + reach^2)) time for evenly spread points.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE, AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     context: *const azulejo_context,

@@ -11,10 +11,9 @@ pub type azulejo_status = i32;
 
 /// The call succeeded.
 pub const AZULEJO_OK: i32 = 0;
-/// An argument or an option is outside its documented range.
+/// An argument or option is outside its documented range.
 pub const AZULEJO_ERROR_INVALID_ARGUMENT: i32 = -1;
-/// The call asks for more than can be indexed or held in memory. It is refused before memory is
-/// taken; the message has the estimate.
+/// More than can be indexed or held in memory. The message has the estimate.
 pub const AZULEJO_ERROR_TOO_LARGE: i32 = -2;
 /// A file could not be read.
 pub const AZULEJO_ERROR_IO: i32 = -3;
@@ -26,13 +25,11 @@ pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
 pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
 /// Embree failed: it is not there, has no memory, or cannot build a scene.
 pub const AZULEJO_ERROR_EMBREE: i32 = -7;
-/// Threads could not be started, or the context's threads are in the process from which this one
-/// was forked.
+/// Threads could not be started, or those of the context are in the process that was forked.
 pub const AZULEJO_ERROR_THREADS: i32 = -8;
-/// A handle is in use by another call, from another thread or around the callback that makes this
-/// one. The same call succeeds later.
+/// The handle is in use by another call, or by the one whose callback makes this one: try later.
 pub const AZULEJO_ERROR_BUSY: i32 = -9;
-/// The library was built without what the call needs: Embree. azulejo_has_embree tells before.
+/// The library was built without Embree: see azulejo_has_embree.
 pub const AZULEJO_ERROR_UNSUPPORTED: i32 = -10;
 /// A bug in the library; please report it. Handles that took part in the call can only be freed.
 pub const AZULEJO_ERROR_INTERNAL: i32 = -100;
@@ -88,15 +85,11 @@ thread_local! {
 }
 
 /// Copies the message of this thread's last failed call: one line of UTF-8, terminated by a NUL;
-/// empty if no call has failed.
-///
-/// Calls that succeed leave the message as it is, so ask right after the call that failed. O(length
-/// of the message).
+/// empty if no call has failed. Calls that succeed leave the message as it is, so ask right after
+/// the call that failed. Returns the size of the whole message in bytes, including the NUL.
 ///
 /// buffer: receives at most `capacity` bytes including the NUL; a longer message is cut between two
 /// characters. May be NULL if `capacity` is 0.
-///
-/// Returns the size of the whole message in bytes, including the NUL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_last_error_message(buffer: *mut c_char, capacity: usize) -> usize {
     let copy = |message: &RefCell<String>| {

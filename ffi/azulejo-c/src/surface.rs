@@ -20,17 +20,17 @@ use crate::status::azulejo_status;
 pub struct azulejo_dcr_surface_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// The largest number of steps; default 100. 0 returns the samples as they are, those outside
-    /// their triangle by rounding moved to its edge. The call ends earlier when the set has
-    /// converged.
+    /// The largest number of steps; default 100. The call ends earlier when the set has converged.
+    /// 0 returns the samples as they are, those outside their triangle by rounding moved to its
+    /// edge.
     pub max_iterations: u32,
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects 0.0005.
     pub tolerance: f64,
     /// Directions in which samples are separated that coincide or lie on edges of triangles, and
-    /// the points onto which clustered samples are redistributed; any number, default 0.
+    /// the points onto which clustered samples are redistributed; default 0.
     pub seed: u64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
@@ -64,12 +64,10 @@ pub struct azulejo_dcr_surface_report {
     pub stopped: u32,
     /// Always 0.
     pub reserved: u32,
-    /// Half of the distance that samples moved over the last 10 steps, root mean square, in units
-    /// of d_max.
+    /// Half of the distance that samples moved over the last 10 steps, root mean square, in d_max.
     pub motion: f64,
-    /// The smallest straight distance between two of the samples, whether or not they are near on
-    /// the surface, in the units of the mesh. It is never less than before the call; infinite for
-    /// fewer than two samples.
+    /// The smallest straight distance between two samples, near on the surface or not: never less
+    /// than before the call; infinite for fewer than two samples.
     pub smallest_distance: f64,
     /// The smallest distance in units of d_max: about 0.77 for a maximal set, more for a relaxed
     /// one, except on meshes with parts that are nearer to each other than samples are. Infinite
@@ -92,9 +90,7 @@ impl From<Report> for azulejo_dcr_surface_report {
     }
 }
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_options_init(
     options: *mut azulejo_dcr_surface_options,
@@ -104,9 +100,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
     report: *mut azulejo_dcr_surface_report,
@@ -124,28 +118,20 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 ///
 /// No two samples get nearer to each other than the nearest two were before, on whatever sides of
 /// walls and boundaries: straight distances, in double arithmetic on the positions, without
-/// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
-/// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
+/// tolerance. More than 64 samples that are clustered on a part of the surface are redistributed
+/// over all of it before the first step, by the area of each connected part, where there is room
+/// for that at the same smallest distance.
 ///
-/// More than 64 samples that are clustered on a part of the surface are redistributed over all of
-/// it before the first step, onto random points that are no nearer to each other than the nearest
-/// samples were: each connected part receives samples by its area. Without room for that they stay.
+/// triangles, barycentrics: one triangle and u v for each sample, as azulejo_points_triangles and
+/// azulejo_points_barycentrics return them. Barycentrics outside their triangle by at most 1e-6 are
+/// moved onto it; those farther outside, and triangles that have no area or are left out by the
+/// mask, are refused.
 ///
-/// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
-/// azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside their
-/// triangle by at most 1e-6 are moved onto it.
+/// out: after the last whole step, in the same order, with normals, triangles and barycentrics.
 ///
-/// out: the samples after the last whole step, in the same order, with normals, triangles and
-/// barycentrics, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(triangles) time once, and for evenly spread samples O(count) for each step, somewhat more with
-/// many triangles between neighbouring samples. Steps take longer beside many boundaries and for
-/// clustered samples. O(count + triangles) memory. The call is cancelled between steps.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
-/// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.
+/// O(triangles) time once, and O(count) for each step, somewhat more with many triangles between
+/// neighbouring samples. Steps take longer beside many boundaries and for clustered samples.
+/// O(count + triangles) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     context: *const azulejo_context,

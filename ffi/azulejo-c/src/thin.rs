@@ -14,14 +14,13 @@ use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// Options of azulejo_thin. What is selected follows from `order`, `radius` and `count`:
-///
-///   any order, a radius: in the order of the cloud, each point that no selected one before it is
-///     nearer to than the radius;
-///   any order, a count (and a radius): the points that the progressive order would select, in the
-///     order of the cloud;
-///   progressive order: each next point is the farthest from those before, the lowest index on
-///     ties, until there are `count` points, or no point is left that is at least `radius` from
-///     all of them; all points if both are 0.
+/// - any order, a radius: in the order of the cloud, each point that no selected one before it is
+///   nearer to than the radius;
+/// - any order, a count (and a radius): the points that the progressive order would select, in the
+///   order of the cloud;
+/// - progressive order: each next point is the farthest from those before, the lowest index on
+///   ties, until there are `count` points, or no point is left that is at least `radius` from all
+///   of them; all points if both are 0.
 ///
 /// Any order with neither is refused.
 #[repr(C)]
@@ -33,12 +32,11 @@ pub struct azulejo_thin_options {
     pub order: u32,
     /// The smallest distance between two selected points, above 0; default 0: none.
     pub radius: f64,
-    /// The number of points to select. A cloud that has fewer is selected whole. Default 0: none.
+    /// The number of points; default 0: none. A cloud that has fewer is selected whole.
     pub count: usize,
-    /// Any number. It chooses the first point of the progressive order, on which the others depend;
-    /// a selection in any order without a count uses no random numbers. Default 0.
+    /// It chooses the first point of the progressive order, on which the others depend; default 0.
     pub seed: u64,
-    /// Called during the call; default NULL: the callback of the context, if it has one.
+    /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
@@ -53,9 +51,7 @@ growing!(azulejo_thin_options requires count {
     progress_user: std::ptr::null_mut(),
 });
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_thin_options_init(
     options: *mut azulejo_thin_options,
@@ -84,9 +80,7 @@ pub struct azulejo_thin_report {
 
 growing!(azulejo_thin_report requires samples { reserved: 0, samples: 0, radius: 0.0, seconds: 0.0 });
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_thin_report_init(
     report: *mut azulejo_thin_report,
@@ -103,38 +97,29 @@ impl azulejo_thin_options {
     }
 }
 
-/// Points of a cloud that azulejo_thin selected. Immutable: several threads may read it at once.
-/// Its arrays have one entry per selected point, in the same order, and are valid until
-/// azulejo_selection_free.
+/// Points of a cloud that azulejo_thin selected. Its arrays have one entry per selected point, in
+/// the same order.
 pub struct azulejo_selection {
     selection: Selection,
 }
 
 handle!(azulejo_selection);
 
-/// Selects points of a cloud that are far from each other and near to all the others.
-///
-/// With a radius, the selected points are at least the radius apart; without a count, every other
-/// point is nearer than the radius to one of them. Without a radius, no other point is farther from
-/// the selected ones than any two of them are from each other. In the progressive order this holds
-/// for the first points of the selection as well, for any number of them. Distances are computed in
+/// Selects points of a cloud that are far from each other and near to all the others. With a
+/// radius, the selected points are at least the radius apart; without a count, every other point is
+/// nearer than the radius to one of them. Without a radius, no other point is farther from the
+/// selected ones than any two of them are from each other. In the progressive order this holds for
+/// the first points of the selection as well, for any number of them. Distances are computed in
 /// double arithmetic from the floats, without tolerance.
 ///
-/// positions: the points, x y or x y z each, finite; `count` of them, at most 2^32 - 1. They may
-/// coincide: by radius one of them is selected, in the progressive order they come last.
+/// positions: the points, x y or x y z each; at most 2^32 - 1. They may coincide: by radius one of
+/// them is selected, in the progressive order they come last.
 ///
 /// dimension: the number of coordinates of a point, 2 or 3.
 ///
-/// out: the selected points, to be freed with azulejo_selection_free.
-///
-/// report: what the call did, or NULL.
-///
 /// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
-/// made for it, O(count * selected). Up to 150 bytes of memory per point. The threads of the
-/// context share the sorting of the points; the selection itself runs on one.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for a point that is not finite with its index;
-/// AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// made for it, O(count * selected). Up to 150 bytes of memory per point. Threads share the sorting
+/// of the points; the selection itself runs on one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_thin(
     context: *const azulejo_context,
@@ -182,7 +167,7 @@ fn select<const D: usize>(
     context.run(watch, |context, progress| thin(context, &request, positions, progress))
 }
 
-/// The number of selected points; 0 for NULL.
+/// The number of selected points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_selection_count(selection: *const azulejo_selection) -> usize {
     // SAFETY: handed on from the caller.
@@ -190,7 +175,7 @@ pub unsafe extern "C" fn azulejo_selection_count(selection: *const azulejo_selec
 }
 
 /// The indices of the selected points in the cloud: ascending in any order, in the order of
-/// selection in the progressive one. NULL for NULL and for an empty selection.
+/// selection in the progressive one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_selection_indices(selection: *const azulejo_selection) -> *const u32 {
     // SAFETY: handed on from the caller.
@@ -201,7 +186,7 @@ pub unsafe extern "C" fn azulejo_selection_indices(selection: *const azulejo_sel
 /// The ranks of the points of a progressive selection: the distance of each from the nearest of
 /// those before it, rounded down to a float. They never rise; the first is infinite, those of
 /// points that coincide with one before are 0. All points with a rank of at least r are at least r
-/// apart. NULL for NULL, an empty selection and AZULEJO_ORDER_ANY.
+/// apart. NULL for AZULEJO_ORDER_ANY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_selection_ranks(selection: *const azulejo_selection) -> *const f32 {
     // SAFETY: handed on from the caller.
@@ -209,7 +194,7 @@ pub unsafe extern "C" fn azulejo_selection_ranks(selection: *const azulejo_selec
         .map_or(std::ptr::null(), |selection| array(&selection.selection.ranks))
 }
 
-/// Frees the selection with its arrays. NULL is allowed.
+/// Frees the selection with its arrays.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_selection_free(selection: *mut azulejo_selection) {
     // SAFETY: handed on from the caller.

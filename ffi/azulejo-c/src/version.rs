@@ -2,14 +2,13 @@
 
 use azulejo_core::trace::HAS_EMBREE;
 
-/// The major version of this header. It changes when programs must be changed.
+/// Changes when programs must be changed.
 pub const AZULEJO_VERSION_MAJOR: u32 = 0;
-/// The minor version of this header. It changes when something is added; before 1.0 also when
-/// programs must be changed.
+/// Changes when something is added; before 1.0 also when programs must be changed.
 pub const AZULEJO_VERSION_MINOR: u32 = 3;
-/// The patch version of this header.
+/// Changes with corrections.
 pub const AZULEJO_VERSION_PATCH: u32 = 0;
-/// The version of this header as one number: major * 10000 + minor * 100 + patch.
+/// The version of this header: major * 10000 + minor * 100 + patch.
 pub const AZULEJO_VERSION: u32 = 300;
 
 /// The version of the library that the program runs with, to be compared with AZULEJO_VERSION.
@@ -18,12 +17,10 @@ pub extern "C" fn azulejo_version() -> u32 {
     AZULEJO_VERSION
 }
 
-/// 1 if the library was built with Embree, 0 otherwise. Without it AZULEJO_ENGINE_EMBREE and
+/// 1 if the library was built with Embree, 0 otherwise: then AZULEJO_ENGINE_EMBREE and
 /// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_UNSUPPORTED, and everything else
-/// is there: sets on meshes are filled, as by default, or projected by the rasteriser.
-///
-/// Embree is loaded by the first call that uses it. If the machine has none, such calls are refused
-/// with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
+/// is there. Embree is loaded by the first call that uses it; if the machine has none, such calls
+/// are refused with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_has_embree() -> u32 {
     u32::from(HAS_EMBREE)

@@ -9,6 +9,10 @@ use std::{env, fs, path::Path};
 /// As wide as a line of the header may be.
 const COLUMNS: usize = 100;
 
+/// As many lines of comments as all headers may have, so that they can be read: what holds for many calls stands once, in
+/// azulejo.h, and derivations in docs/.
+const COMMENTS: usize = 1_200;
+
 /// A header below include/azulejo/.
 struct Header {
     name: &'static str,
@@ -54,7 +58,7 @@ const HEADERS: [Header; 6] = [
 fn the_committed_headers_are_the_generated_ones() {
     let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let include = crate_root.join("../../include");
-    let mut declared = 0;
+    let (mut declared, mut comments) = (0, 0);
     for header in &HEADERS {
         let topics: Vec<String> = header.sources.iter().map(|source| topic(crate_root, source)).collect();
         declared += topics.iter().map(|topic| topic.matches("azulejo_status azulejo_").count()).sum::<usize>();
@@ -64,13 +68,15 @@ fn the_committed_headers_are_the_generated_ones() {
         let linkage = |brace| format!("#ifdef __cplusplus\n{brace}\n#endif\n");
         let body = [&linkage("extern \"C\" {"), &topics.join("\n"), &linkage("}")].map(String::as_str).join("\n");
         let guard = format!("AZULEJO_{}_H", header.name.to_uppercase());
-        check(&include.join(format!("azulejo/{}.h", header.name)), &guarded(&guard, &page, includes, &body));
+        comments +=
+            check(&include.join(format!("azulejo/{}.h", header.name)), &guarded(&guard, &page, includes, &body));
     }
     assert!(declared > 50, "{declared} calls");
 
     let all: String = HEADERS.iter().map(|header| format!("#include \"azulejo/{}.h\"\n", header.name)).collect();
     let page = fs::read_to_string(crate_root.join("src/lib.rs")).unwrap();
-    check(&include.join("azulejo.h"), &guarded("AZULEJO_H", &preamble(&page), &all, ""));
+    comments += check(&include.join("azulejo.h"), &guarded("AZULEJO_H", &preamble(&page), &all, ""));
+    assert!(comments <= COMMENTS, "{comments} lines of comments");
 }
 
 const GENERATED: &str = "Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.";
@@ -153,7 +159,8 @@ fn list(comment: &[&str], columns: usize) -> Vec<String> {
     lines
 }
 
-fn check(path: &Path, generated: &str) {
+/// Compares or writes a header, and returns its number of lines of comments.
+fn check(path: &Path, generated: &str) -> usize {
     let is_too_long = |line: &&str| line.chars().count() > COLUMNS;
     assert_eq!(generated.lines().find(is_too_long), None, "a line is longer than {COLUMNS} columns");
     if env::var_os("AZULEJO_BLESS").is_some() {
@@ -163,6 +170,7 @@ fn check(path: &Path, generated: &str) {
     let committed = fs::read_to_string(path).unwrap_or_default();
     let same = committed.lines().zip(generated.lines()).take_while(|(old, new)| old == new).count();
     assert!(committed == generated, "{} differs from line {}; AZULEJO_BLESS=1 rewrites it", path.display(), same + 1);
+    generated.lines().filter(|line| ["/", "*"].iter().any(|mark| line.trim_start().starts_with(mark))).count()
 }
 
 /// The `//!` page at the top of a source file as a C comment.
