@@ -1,8 +1,10 @@
 // azulejo for C++17: azulejo.h with owners instead of handles, arrays and points as C++ programs
-// have them, and options that start with their defaults. Header only; copy it beside azulejo.h and azulejo/.
+// have them, and options that start with their defaults. Header only; copy it beside azulejo.h and
+// azulejo/.
 //
-// The units, ranges, errors and thread rules of a call are documented in azulejo.h under the name
-// of the C function, which each comment here gives.
+// The units, ranges, errors and thread rules of a call are documented under the name of the C
+// function, which each comment here gives, in a header of azulejo/; what holds for all calls, and a
+// table of them, in azulejo.h.
 //
 // Errors. Every call that can fail has two forms. try_kdrt_sample(.., out) returns a Status and
 //   writes `out` on success only; kdrt_sample(..) returns the result and throws an Error. Programs

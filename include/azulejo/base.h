@@ -32,7 +32,7 @@ extern "C" {
 /// Embree failed: it is not there, has no memory, or cannot build a scene.
 #define AZULEJO_ERROR_EMBREE -7
 
-/// Threads could not be started, or those of the context are in the process that was forked.
+/// Threads could not be started, or the context's are left in the parent of a forked process.
 #define AZULEJO_ERROR_THREADS -8
 
 /// The handle is in use by another call, or by the one whose callback makes this one: try later.
@@ -208,8 +208,8 @@ void azulejo_points_free(azulejo_points *points);
 typedef struct azulejo_classes {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t count; ///< The number of classes, 1 to AZULEJO_MAX_CLASSES. Required.
-    /// count * count radii, row by row; symmetric, 0 or more, and above 0 on the diagonal.
-    /// Required. Two classes whose radius is 0 ignore each other. azulejo_classes_radii makes one.
+    /// count * count radii, row by row; symmetric, 0 or more, above 0 on the diagonal; required.
+    /// Two classes whose radius is 0 ignore each other. azulejo_classes_radii makes such a matrix.
     const double *radii;
     /// On meshes, where each class may stand: for each triangle a number with a bit for each class,
     /// the lowest for class 0. A class has no samples, and needs no cover, where its bit is 0;

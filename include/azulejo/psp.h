@@ -169,8 +169,8 @@ azulejo_status azulejo_psp_points(const azulejo_psp *psp, azulejo_points **out);
 /// callback.
 void azulejo_psp_free(azulejo_psp *psp);
 
-/// Samples a mesh in one call: azulejo_psp_create, azulejo_psp_advance by `iterations` and, if
-/// `maximal` is 1, azulejo_psp_fill, with one progress for all.
+/// Samples a mesh in one call with one progress: azulejo_psp_create, azulejo_psp_advance by
+/// `iterations` and, if `maximal` is 1, azulejo_psp_fill, whose complexity and errors it has.
 ///
 /// With a `count` the set has exactly so many samples: no two are closer than `radius` in the
 /// report, and every place of the surface is within `covering_radius` of one, in most cases less
@@ -183,8 +183,7 @@ void azulejo_psp_free(azulejo_psp *psp);
 /// with ranks of at least 2.25 times it. It takes several times as long as a set in any order, and
 /// more with many triangles per sample: log(diagonal / radius) / log(quotient) levels visit all.
 /// - out: the samples with normals, triangles and barycentrics.
-/// - Errors: those of the three; AZULEJO_ERROR_INVALID_ARGUMENT also for a `count` that is more
-///   than floats can carry on the mesh. Complexity is theirs, too.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `count` that is more than floats can carry.
 azulejo_status azulejo_psp_sample(const azulejo_context *context,
                                   const azulejo_mesh *mesh,
                                   const azulejo_psp_options *options,

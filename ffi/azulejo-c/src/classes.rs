@@ -27,8 +27,8 @@ pub struct azulejo_classes {
     pub struct_size: u32,
     /// The number of classes, 1 to AZULEJO_MAX_CLASSES. Required.
     pub count: u32,
-    /// count * count radii, row by row; symmetric, 0 or more, and above 0 on the diagonal.
-    /// Required. Two classes whose radius is 0 ignore each other. azulejo_classes_radii makes one.
+    /// count * count radii, row by row; symmetric, 0 or more, above 0 on the diagonal; required.
+    /// Two classes whose radius is 0 ignore each other. azulejo_classes_radii makes such a matrix.
     pub radii: *const f64,
     /// On meshes, where each class may stand: for each triangle a number with a bit for each class,
     /// the lowest for class 0. A class has no samples, and needs no cover, where its bit is 0;

@@ -390,8 +390,8 @@ pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
     unsafe { handles::free("psp", psp) };
 }
 
-/// Samples a mesh in one call: azulejo_psp_create, azulejo_psp_advance by `iterations` and, if
-/// `maximal` is 1, azulejo_psp_fill, with one progress for all.
+/// Samples a mesh in one call with one progress: azulejo_psp_create, azulejo_psp_advance by
+/// `iterations` and, if `maximal` is 1, azulejo_psp_fill, whose complexity and errors it has.
 ///
 /// With a `count` the set has exactly so many samples: no two are closer than `radius` in the
 /// report, and every place of the surface is within `covering_radius` of one, in most cases less
@@ -406,8 +406,7 @@ pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
 ///
 /// out: the samples with normals, triangles and barycentrics.
 ///
-/// Errors: those of the three; AZULEJO_ERROR_INVALID_ARGUMENT also for a `count` that is more than
-/// floats can carry on the mesh. Complexity is theirs, too.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `count` that is more than floats can carry.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_sample(
     context: *const azulejo_context,

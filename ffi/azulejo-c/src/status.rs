@@ -25,7 +25,7 @@ pub const AZULEJO_ERROR_CANCELLED: i32 = -5;
 pub const AZULEJO_ERROR_OUT_OF_MEMORY: i32 = -6;
 /// Embree failed: it is not there, has no memory, or cannot build a scene.
 pub const AZULEJO_ERROR_EMBREE: i32 = -7;
-/// Threads could not be started, or those of the context are in the process that was forked.
+/// Threads could not be started, or the context's are left in the parent of a forked process.
 pub const AZULEJO_ERROR_THREADS: i32 = -8;
 /// The handle is in use by another call, or by the one whose callback makes this one: try later.
 pub const AZULEJO_ERROR_BUSY: i32 = -9;
