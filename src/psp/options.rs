@@ -213,7 +213,10 @@ impl<'a> FlatOptions<'a> {
         let iterations = self.iterations.unwrap_or(if maximal { 0 } else { 1 });
         if count > 0 || order == Order::Progressive {
             self.check_filled(iterations)?;
-        } else if iterations > 0 || !maximal {
+        } else if iterations == 0 && !maximal {
+            // A C struct of zeros, filled without its _init, would be an empty set and a success.
+            return Err(Error::invalid("iterations", "0 with maximal off makes no samples"));
+        } else if iterations > 0 {
             return Ok(Request::Project { options: self.projection(), iterations, maximal });
         }
         let options = if count > 0 { Options::by_count(count) } else { Options::new(radius) };

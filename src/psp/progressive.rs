@@ -92,6 +92,7 @@ impl Psp {
     /// cannot take the mesh.
     pub fn advance(&mut self, context: &Context, iterations: u32, progress: Option<&Progress>) -> Result<Report> {
         let stopwatch = Stopwatch::start();
+        self.check_iterations(iterations)?;
         let mut report = Report::default();
         context.run(progress, |job| self.iterate(job, iterations, &mut report))?;
         Ok(self.finish(report, &stopwatch))
@@ -140,11 +141,16 @@ impl Psp {
         self.frame.map(|frame| frame.to_cols_array_2d())
     }
 
-    fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
+    /// Refuses iterations of a set whose samples ignore others by their normals.
+    fn check_iterations(&self, iterations: u32) -> Result<()> {
         if iterations > 0 && self.facing.asks_normals() {
             let reason = format!("{:?} with iterations; iterations require cosine = -1", self.options.cosine);
             return Err(Error::invalid("cosine", reason));
         }
+        Ok(())
+    }
+
+    fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
         let iterations = if self.projects { iterations } else { 0 };
         for step in 0..iterations {
             let share = |step: u32| f64::from(step) / f64::from(iterations);
@@ -255,6 +261,7 @@ pub fn project(
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     let mut psp = Psp::new(mesh, options)?;
+    psp.check_iterations(iterations)?;
     let mut report = Report::default();
     context.run(progress, |job| {
         let share = match (maximal, iterations) {

@@ -294,7 +294,7 @@ static void psp(void) {
     memset(&zeros, 0, sizeof zeros);
     zeros.struct_size = sizeof zeros;
     zeros.radius = 0.2;
-    REFUSED(INVALID, "iterations: 0 with maximal 0", azulejo_psp_sample(context, cube, &zeros, &points, &report));
+    REFUSED(INVALID, "iterations: 0 with maximal off", azulejo_psp_sample(context, cube, &zeros, &points, &report));
     good.iterations = 2;
     REFUSED(INVALID, "iterations: 2 has no effect in azulejo_psp_create", azulejo_psp_create(context, cube, &good, &out));
     good.iterations = AZULEJO_ITERATIONS_DEFAULT;

@@ -177,10 +177,6 @@ impl azulejo_psp_options {
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         let (order, quotient) = self.ordered()?;
-        if order == Order::Any && self.count == 0 && self.iterations == 0 && self.maximal == 0 {
-            // A struct of zeros, filled without _init, would be an empty set and a success.
-            return Err(Failure::invalid("iterations", "0 with maximal 0 makes no samples; _init writes the defaults"));
-        }
         Ok(FlatOptions::new(self.radius)
             .count(self.count)
             .order(order)

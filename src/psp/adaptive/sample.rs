@@ -71,6 +71,10 @@ pub fn sample(
         count = checked_count(scale, options.order)?;
         density = Some((DensityField::new(mesh, source)?, scale));
     }
+    let stated = match density {
+        Some(_) => None,
+        None => Some(RadiusField::new(mesh, options.radius, None, 1.0)?),
+    };
     require_clearances(options.given, "are required where the radius varies")?;
     let obstacles = &Obstacles::of(mesh, options.given)?;
     let found = context.run(progress, |job| {
@@ -87,7 +91,10 @@ pub fn sample(
                 (1.0, unit, (1.0 + 1e-12) * finest_radius(mesh.float_spacing()) * density.largest.sqrt())
             }
         };
-        let field = RadiusField::new(mesh, options.radius, density.map(|density| (density, unit)), finest)?;
+        let field = match stated {
+            Some(field) => field,
+            None => RadiusField::new(mesh, options.radius, density.map(|density| (density, unit)), finest)?,
+        };
         if is_ordered && count.is_none() {
             let least = last * field.least();
             check_resolution("density", least, mesh.float_spacing(), "the largest coordinate of the mesh")?;
