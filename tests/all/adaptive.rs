@@ -1,13 +1,11 @@
 //! Samples whose radius varies, held against the definitions by plain checkers.
 
-use std::cell::Cell;
 use std::collections::HashSet;
-use std::ops::ControlFlow;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::Report;
 use azulejo::psp::adaptive::{self, Options, Radius};
-use azulejo::{Context, Error, MAXIMAL_DENSITY, Points, Result};
+use azulejo::{Context, Error, MAXIMAL_DENSITY, Points};
 use proptest::prelude::*;
 
 use crate::common::adaptive_oracle as oracle;
@@ -320,30 +318,6 @@ fn bad_functions_and_cosines_are_refused() {
     for cosine in [-1.1, 1.1, f64::NAN] {
         let options = Options::new(Radius::PerVertex(&[0.1; 4])).cosine(cosine);
         assert_eq!(refused(&plane, &options).0, "cosine");
-    }
-}
-
-#[test]
-fn progress_grows_to_one_and_can_cancel() {
-    let sphere = mesh(meshes::sphere());
-    let radii = radii(&sphere, |[x, ..]| 0.1 + 0.09 * x);
-    let options = Options::new(Radius::PerVertex(&radii));
-    for threads in [1, 2] {
-        let context = Context::new(threads).unwrap();
-        let run = |limit: f64| -> (Result<_>, f64) {
-            let last = Cell::new(0.0);
-            let watch = |share: f64| {
-                assert!(share >= last.replace(share));
-                if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
-            let result = adaptive::sample(&context, &sphere, &options, Some(&watch));
-            (result, last.get())
-        };
-        let (result, last) = run(2.0);
-        assert!(result.is_ok() && last == 1.0);
-        for limit in [0.0, 0.1, 0.5, 1.0] {
-            assert!(matches!(run(limit).0, Err(Error::Cancelled)));
-        }
     }
 }
 

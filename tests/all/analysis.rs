@@ -2,6 +2,7 @@
 
 use azulejo::analysis::bonds::bond_order;
 use azulejo::analysis::coverage::{covering_radius_2d, surface_uncovered_fraction};
+use azulejo::analysis::figures::figures_2d;
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
 use azulejo::analysis::triangles::{Triangle, TriangleStatistics, delaunay_triangles, triangle_statistics};
 use azulejo::mesh::Mesh;
@@ -275,4 +276,20 @@ fn the_oracle_of_distances_notices_points_that_are_moved_and_domains_that_wrap()
     let moved = nearest_distances(&torus, &points);
     assert_eq!([moved[0], moved[3], moved[2]], [0.125, 0.125, 0.25]);
     assert_eq!(nearest_distances(&square, &points)[0], 0.25);
+}
+
+/// What several calls find is what each finds alone.
+#[test]
+fn figures_are_those_of_the_calls_that_find_one() {
+    let context = &Context::new(2).unwrap();
+    for (count, boundary) in
+        [(0, Boundary::Bounded), (1, Boundary::Periodic), (2, Boundary::Bounded), (500, Boundary::Periodic)]
+    {
+        let (points, domain) = (&random_points(count, 7)[..], &unit_square(boundary));
+        let figures = figures_2d(context, domain, points, None).unwrap();
+        assert_eq!(figures.nearest, nearest_distances_2d(context, domain, points, None).unwrap());
+        assert_eq!(figures.covering_radius, covering_radius_2d(context, domain, points, None).unwrap());
+        assert_eq!(figures.bond_order, bond_order(context, domain, points, None).unwrap());
+        assert_eq!(figures.triangles, triangle_statistics(context, domain, points, None).unwrap());
+    }
 }

@@ -191,16 +191,6 @@ fn a_stretched_set_is_elongated_along_its_direction() {
     assert!(up < -0.8 && across > 0.8, "{up} {across}");
 }
 
-#[test]
-fn differences_do_not_depend_on_the_threads_and_can_be_cancelled() {
-    let (domain, set) = (unit_square(Boundary::Bounded), blue_noise(3000.0, 3));
-    let of = |threads| plane_differences(&Context::new(threads).unwrap(), &domain, &set, None).unwrap();
-    assert_eq!(of(1), of(3));
-    let cancel = |_| std::ops::ControlFlow::Break(());
-    let cancelled = plane_differences(&context(), &domain, &set, Some(&cancel));
-    assert!(matches!(cancelled, Err(Error::Cancelled)));
-}
-
 /// Over all pairs, with the definition of the estimator of bounded domains.
 #[test]
 fn counts_are_those_of_all_pairs() {

@@ -107,18 +107,6 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
 }
 
 #[test]
-fn a_call_can_be_cancelled_at_any_time() {
-    let options = Options::new(0.001);
-    for threads in [1, 4] {
-        for limit in [0.0, 0.02, 0.3, 1.0] {
-            let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            let result = sample(&Context::new(threads).unwrap(), &options, Some(&stop));
-            assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
-        }
-    }
-}
-
-#[test]
 fn bad_arguments_are_refused_by_name() {
     let good = Options::new(0.01);
     let refuse = |options: Options| sample(&Context::new(1).unwrap(), &options, None).unwrap_err();

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use azulejo::kdrt::{CountOptions, CountReport, sample_count};
-use azulejo::{Boundary, Context, Domain, Error, Points};
+use azulejo::{Boundary, Context, Domain, Points};
 use proptest::prelude::*;
 
 use crate::common::{BOUNDARIES, check, domain, find_conflict, find_gap, float_spacing, hard_domains};
@@ -97,27 +97,6 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
             let other = sample_count(&context, &options.seed(2), None).unwrap();
             assert!(one.0 != other.0);
             assert!(one == sample_count(&context, &options, Some(&|_| ControlFlow::Continue(()))).unwrap());
-        }
-    }
-}
-
-#[test]
-fn progress_grows_to_one_and_a_call_can_be_cancelled_at_any_time() {
-    let options = options(Domain::unit(Boundary::Periodic), 300_000, 0);
-    for threads in [1, 4] {
-        let context = Context::new(threads).unwrap();
-        let told = std::cell::RefCell::new(vec![]);
-        let tell = |share| {
-            told.borrow_mut().push(share);
-            ControlFlow::Continue(())
-        };
-        sample_count(&context, &options, Some(&tell)).unwrap();
-        let told = told.into_inner();
-        assert!(told.is_sorted() && told.last() == Some(&1.0));
-        for limit in [0.0, 0.02, 0.3, 0.8, 1.0] {
-            let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            let result = sample_count(&context, &options, Some(&stop));
-            assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
         }
     }
 }

@@ -1,7 +1,5 @@
 //! `kdrt::merge` refuses what it cannot merge, by name and index, and can be cancelled.
 
-use std::ops::ControlFlow;
-
 use azulejo::kdrt::{MergeOptions, MergeReport, Piece, merge};
 use azulejo::{Boundary, Context, Domain, Error};
 
@@ -29,21 +27,6 @@ fn refusal(options: MergeOptions, pieces: &[Piece], fixed: &[[f32; 2]]) -> Strin
     let error = merged(options, pieces, fixed).unwrap_err();
     assert!(matches!(error, Error::InvalidArgument { .. }), "{error}");
     error.to_string()
-}
-
-#[test]
-fn a_call_can_be_cancelled_at_any_time() {
-    // Wide enough for blocks, and a torus that is not.
-    for (max, radius) in [([1.0, 1.0], 0.003), ([1.0, 0.01], 0.001)] {
-        let options = MergeOptions::new(radius).domain(Domain { max, ..good().domain });
-        for threads in [1, 4] {
-            for limit in [0.0, 0.02, 0.3, 0.6, 1.0] {
-                let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-                let result = merge(&Context::new(threads).unwrap(), &options, &[], &[[0.5, 0.005]], Some(&stop));
-                assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
-            }
-        }
-    }
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! Windows and streams of `kdrt` against the whole set: always the same floats in the same order.
 
-use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -357,44 +356,6 @@ fn a_stream_of_a_plane_that_nobody_can_hold_can_be_left() {
             };
             assert!(matches!(plane.stream(&context, visit, None), Err(Error::Cancelled)));
             assert_eq!(visits, last);
-        }
-    }
-}
-
-#[test]
-fn calls_can_be_cancelled_at_any_time() {
-    let options = Options::new(0.002);
-    for threads in [1, 4] {
-        let context = Context::new(threads).unwrap();
-        let plane = Plane::new(&context, &options, None).unwrap();
-        for limit in [0.0, 0.02, 0.3, 1.0] {
-            let told = Cell::new(0.0);
-            let stop = |share| {
-                assert!(told.replace(share) <= share);
-                if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
-            let result = sample_window(&context, &options, [0.0; 2], [0.9; 2], Some(&stop));
-            assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
-            told.set(0.0);
-            let result = plane.stream(&context, |_| ControlFlow::Continue(()), Some(&stop));
-            assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
-            told.set(0.0);
-            assert!(matches!(plane.whole(&context, Some(&stop)), Err(Error::Cancelled)), "{limit}");
-        }
-    }
-}
-
-#[test]
-fn the_making_of_a_plane_can_be_cancelled() {
-    for options in [Options::new(0.002), Options::new(0.02)] {
-        for (threads, limit) in [(1, 0.0), (1, 0.5), (4, 0.2), (4, 1.0)] {
-            let told = Cell::new(0.0);
-            let stop = |share| {
-                assert!(told.replace(share) <= share);
-                if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            };
-            let made = Plane::new(&Context::new(threads).unwrap(), &options, Some(&stop));
-            assert!(matches!(made, Err(Error::Cancelled)), "{limit}");
         }
     }
 }

@@ -1,7 +1,5 @@
 //! `maximal` against naive oracles.
 
-use std::ops::ControlFlow;
-
 use azulejo::maximal::{Options, sample};
 use azulejo::{Boundary, Context, Domain, Error};
 use proptest::prelude::*;
@@ -98,30 +96,6 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
     assert_ne!(first, samples(domain, 0.05, 2));
     let four = Context::new(4).unwrap();
     assert_eq!(first, sample(&four, &Options::new(0.05).domain(domain).seed(1), None).unwrap().positions);
-}
-
-#[test]
-fn a_call_can_be_cancelled_at_any_time() {
-    let options = Options::new(0.002);
-    for limit in [0.0, 0.3, 0.99, 1.0] {
-        let stop = |share| if share >= limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        let result = sample(&Context::new(1).unwrap(), &options, Some(&stop));
-        assert!(matches!(result, Err(Error::Cancelled)), "{limit}");
-    }
-}
-
-#[test]
-fn the_progress_grows_from_zero_to_one() {
-    let options = Options::new(0.003).domain(Domain::unit(Boundary::Bounded));
-    let told = std::cell::RefCell::new(Vec::new());
-    let watch = |share| {
-        told.borrow_mut().push(share);
-        ControlFlow::Continue(())
-    };
-    sample(&Context::new(1).unwrap(), &options, Some(&watch)).unwrap();
-    let told = told.into_inner();
-    assert!(told.len() > 10 && told.windows(2).all(|pair| pair[0] <= pair[1]));
-    assert_eq!((told[0], told[told.len() - 1]), (0.0, 1.0));
 }
 
 #[test]

@@ -1,13 +1,11 @@
 //! Sets of meshes in progressive order: every prefix is well spread, and sets of fewer samples are prefixes.
 
-use std::cell::RefCell;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use azulejo::analysis::spectrum::{Periodogram, periodogram};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, FlatOptions, Options, Report};
-use azulejo::{Boundary, Context, Domain, Error, Order, Points};
+use azulejo::{Boundary, Context, Domain, Order, Points};
 
 use crate::common::meshes;
 use crate::common::order_oracle::{conflict, covers, disorder};
@@ -182,27 +180,6 @@ fn what_does_not_go_with_the_order_is_refused() {
     }
     assert!(said(progressive(0.0)).starts_with("radius: "));
     assert!(said(progressive(1e-9)).starts_with("radius: "));
-}
-
-#[test]
-fn progress_grows_to_its_end_and_can_cancel() {
-    let mesh = mesh(meshes::fine_torus(60, 30));
-    for threads in [1, 3] {
-        let context = Context::new(threads).unwrap();
-        for options in [progressive(0.03), of_count(9000), Options::by_count(9000), Options::by_count(40_000)] {
-            let seen = RefCell::new(Vec::new());
-            let watch = |done: f64| {
-                seen.borrow_mut().push(done);
-                ControlFlow::Continue(())
-            };
-            psp::sample(&context, &mesh, &options, Some(&watch)).unwrap();
-            let seen = seen.into_inner();
-            assert!(seen.is_sorted() && seen.len() > 10 && seen[0] == 0.0 && seen.last() == Some(&1.0), "{seen:?}");
-            let cancel = |done: f64| if done > 0.3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-            let cancelled = psp::sample(&context, &mesh, &options, Some(&cancel));
-            assert!(matches!(cancelled, Err(Error::Cancelled)));
-        }
-    }
 }
 
 /// The samples of a square mesh by their spectra. Levels that add few samples to one had 3 to 4 decibels.

@@ -326,24 +326,6 @@ fn what_is_out_of_range_is_refused_by_name() {
     assert_eq!(argument(sample_count(&context, &counted(Progressive::new()).count(0), None).map(|_| ())), "count");
 }
 
-#[test]
-fn a_call_can_be_cancelled_and_reports_what_is_done() {
-    let context = Context::new(1).unwrap();
-    let options = progressive(0.004, Progressive::new(), Domain::unit(Boundary::Bounded), 0);
-    let seen = std::cell::RefCell::new(Vec::new());
-    let watch = |done: f64| {
-        seen.borrow_mut().push(done);
-        ControlFlow::Continue(())
-    };
-    sample(&context, &options, Some(&watch)).unwrap();
-    let seen = seen.into_inner();
-    assert!(seen.is_sorted() && seen.first() == Some(&0.0) && seen.last() == Some(&1.0) && seen.len() > 20);
-    for end in [0.0, 0.5, 0.99] {
-        let stop = |done: f64| if done >= end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
-        assert!(matches!(sample(&context, &options, Some(&stop)), Err(Error::Cancelled)));
-    }
-}
-
 /// The anisotropy of the mean spectrum of some prefixes, in decibels over that of isotropic sets.
 fn anisotropy(domain: &Domain, prefixes: &[&[[f32; 2]]]) -> f64 {
     let context = Context::new(1).unwrap();
