@@ -421,6 +421,10 @@ impl Layer for Level {
         self.expected(&Part::whole(&self.lattice)) <= self.most_kept
     }
 
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
     fn expected(&self, part: &Part) -> f64 {
         self.lattice.samples_in(&part.rect)
     }

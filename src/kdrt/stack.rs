@@ -11,6 +11,8 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::kdrt::{
+    blocks::Blocks,
+    cache::Cache,
     conquer::capacity,
     region::{Part, Placed, Region},
     tiling::Tiling,
@@ -44,6 +46,10 @@ pub trait Layer {
     /// True if a retained plane stores all samples of this layer and of those before.
     fn is_kept(&self) -> bool;
 
+    /// The blocks that the layer is made by, each of which is a function of the plane; none for one that is made as a
+    /// whole.
+    fn blocks(&self) -> Option<&Blocks>;
+
     /// An approximate upper bound of the number of samples in a part after this layer: the cost of making them.
     fn expected(&self, part: &Part) -> f64;
 
@@ -65,12 +71,25 @@ pub struct Stack<L: Layer> {
     layers: Vec<L>,
     /// The number of layers that are kept, and the samples up to the last of them.
     kept: Option<(usize, Region<L::Sample>)>,
+    /// What windows made of the other layers, if the stack is kept.
+    cache: Option<Cache<L::Sample>>,
+}
+
+/// What is to be made of a layer for a part.
+struct Step<S> {
+    part: Part,
+    /// The samples of the layer in the part that were made before.
+    found: Vec<S>,
+    /// The part of the layer that is to be made, and the rectangle of it, perhaps on other images, that is wanted.
+    missing: Option<(Part, Rect)>,
+    /// The part of the layers before that is needed.
+    before: Part,
 }
 
 impl<L: Layer> Stack<L> {
     /// Layers around the samples of a base, all of which have the attributes of the given one.
     pub fn new(lattice: Lattice, base: Option<(Base, L::Sample)>, layers: Vec<L>) -> Self {
-        Self { lattice, base, layers, kept: None }
+        Self { lattice, base, layers, kept: None, cache: None }
     }
 
     /// The lattice of all layers.
@@ -86,16 +105,18 @@ impl<L: Layer> Stack<L> {
 
     /// Makes, for all windows, the layers that are stored as a whole.
     pub fn keep(&mut self, job: &Job) -> Result<()> {
-        let Some(last) = self.layers.iter().rposition(Layer::is_kept) else { return Ok(()) };
-        let whole = Part::whole(&self.lattice);
-        let samples = self.up_to(job, last + 1, &whole)?;
-        self.kept = Some((last + 1, self.layers[last].sorted(whole, &samples)));
+        if let Some(last) = self.layers.iter().rposition(Layer::is_kept) {
+            let whole = Part::whole(&self.lattice);
+            let samples = self.up_to(job, last + 1, &whole, None)?;
+            self.kept = Some((last + 1, self.layers[last].sorted(whole, &samples)));
+        }
+        self.cache = Some(Cache::new());
         Ok(())
     }
 
     /// All samples.
     pub fn whole(&self, job: &Job) -> Result<Vec<L::Sample>> {
-        self.up_to(job, self.layers.len(), &Part::whole(&self.lattice))
+        self.up_to(job, self.layers.len(), &Part::whole(&self.lattice), None)
     }
 
     /// The samples in a window of the domain.
@@ -104,39 +125,67 @@ impl<L: Layer> Stack<L> {
         if rect.is_empty() {
             return Ok(Vec::new());
         }
-        let mut samples = self.up_to(job, self.layers.len(), &Part::new(&self.lattice, &rect))?;
+        let part = Part::new(&self.lattice, &rect);
+        let expected = self.layers.last().map_or(0.0, |layer| layer.expected(&part));
+        let cache = self.cache.as_ref().filter(|cache| cache.is_for(expected));
+        let mut samples = self.up_to(job, self.layers.len(), &part, cache)?;
         samples.retain(|sample| window.contains(self.lattice.position(sample.point())));
         Ok(samples)
     }
 
     /// The samples of the base and of the first `count` layers in a part.
-    fn up_to(&self, job: &Job, count: usize, part: &Part) -> Result<Vec<L::Sample>> {
+    fn up_to(&self, job: &Job, count: usize, part: &Part, cache: Option<&Cache<L::Sample>>) -> Result<Vec<L::Sample>> {
         // From the last layer to the first, the part of each that is needed.
-        let layers = &self.layers[self.kept.as_ref().map_or(0, |(kept, _)| *kept)..count];
-        let mut parts = vec![*part];
-        for layer in layers.iter().rev() {
-            parts.push(layer.around(&parts[parts.len() - 1]));
+        let kept = self.kept.as_ref().map_or(0, |(kept, _)| *kept);
+        let mut steps = Vec::with_capacity(count - kept);
+        let mut part = *part;
+        for number in (kept..count).rev() {
+            let step = self.step(number, &part, cache);
+            part = step.before;
+            steps.push((number, step));
         }
-        parts.reverse();
 
         // From the first to the last, each in its part.
-        let base = self.base.as_ref().map_or(0.0, |(base, _)| base.expected(&parts[0].rect) / TILING_SPEED);
-        let costs: Vec<f64> = layers.iter().zip(&parts[1..]).map(|(layer, part)| 1.0 + layer.expected(part)).collect();
-        let total = 1.0 + base + costs.iter().sum::<f64>();
+        let base = self.base.as_ref().map_or(0.0, |(base, _)| base.expected(&part.rect) / TILING_SPEED);
+        let cost = |number: usize, step: &Step<L::Sample>| {
+            1.0 + step.missing.as_ref().map_or(0.0, |(missing, _)| self.layers[number].expected(missing))
+        };
+        let total = 1.0 + base + steps.iter().map(|(number, step)| cost(*number, step)).sum::<f64>();
         let mut samples = match &self.kept {
-            Some((_, kept)) => kept.samples_of(&parts[0]),
-            None => self.base_in(&job.part(0.0, base / total), &parts[0])?,
+            Some((_, kept)) => kept.samples_of(&part),
+            None => self.base_in(&job.part(0.0, base / total), &part)?,
         };
         let mut done = base;
-        for ((layer, parts), cost) in layers.iter().zip(parts.windows(2)).zip(costs) {
-            let job = job.part(done / total, (done + cost) / total);
-            let before = layer.sorted(parts[0], &samples);
-            let filled = layer.fill(&job, &before, &parts[1])?;
-            samples = before.samples_of(&parts[1]);
-            samples.extend(filled);
-            done += cost;
+        for (number, step) in steps.into_iter().rev() {
+            let next = done + cost(number, &step);
+            let layer = &self.layers[number];
+            if let Some((missing, wanted)) = &step.missing {
+                let before = layer.sorted(step.before, &samples);
+                let made = layer.fill(&job.part(done / total, next / total), &before, missing)?;
+                samples = before.samples_of(&step.part);
+                if let (Some(cache), Some(blocks)) = (cache, layer.blocks()) {
+                    cache.add(number, blocks, missing, &made);
+                }
+                add_images(&mut samples, &made, missing, wanted);
+            }
+            samples.extend(step.found);
+            done = next;
         }
         Ok(samples)
+    }
+
+    /// What a part of a layer needs: of a layer that is made by blocks, those that are not cached.
+    fn step(&self, number: usize, part: &Part, cache: Option<&Cache<L::Sample>>) -> Step<L::Sample> {
+        let layer = &self.layers[number];
+        let Some((cache, blocks)) = cache.zip(layer.blocks()) else {
+            let missing = Some((*part, part.rect));
+            return Step { part: *part, found: Vec::new(), missing, before: layer.around(part) };
+        };
+        let (found, missing) = cache.look_up(number, blocks, &part.rect);
+        let Some(rect) = missing else { return Step { part: *part, found, missing: None, before: *part } };
+        let missing = Part::new(&self.lattice, &rect);
+        let before = Part::new(&self.lattice, &layer.around(&missing).rect.hull(&part.rect));
+        Step { part: *part, found, missing: Some((missing, rect.intersection(&part.rect))), before }
     }
 
     /// The samples of the base in a part.
@@ -145,6 +194,16 @@ impl<L: Layer> Stack<L> {
             Some((base, sample)) => images(job, &self.lattice, base, *sample, part),
             None => Ok(Vec::new()),
         }
+    }
+}
+
+/// Adds those images of the samples of a part that lie in a rectangle.
+fn add_images<S: Placed>(samples: &mut Vec<S>, made: &[S], part: &Part, rect: &Rect) {
+    for (piece, [along, up]) in part.images(rect) {
+        samples.extend(made.iter().filter(|sample| piece.contains(sample.point())).map(|sample| {
+            let [x, y] = sample.point();
+            sample.moved_to([x + along, y + up])
+        }));
     }
 }
 

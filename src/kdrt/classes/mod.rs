@@ -378,6 +378,10 @@ impl Layer for Group {
         self.blocks.is_none()
     }
 
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
     fn around(&self, part: &Part) -> Part {
         match &self.blocks {
             Some(blocks) => {
