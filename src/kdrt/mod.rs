@@ -21,6 +21,7 @@ mod conquer;
 mod count;
 mod divide;
 mod fill;
+mod frame;
 mod merge;
 mod options;
 mod plane;

@@ -121,16 +121,26 @@ impl<L: Layer> Stack<L> {
 
     /// The samples in a window of the domain.
     pub fn window(&self, job: &Job, window: &Domain) -> Result<Vec<L::Sample>> {
-        let rect = self.lattice.points_in(window);
+        let mut samples = self.points(job, &self.lattice.points_in(window))?;
+        samples.retain(|sample| window.contains(self.lattice.position(sample.point())));
+        Ok(samples)
+    }
+
+    /// The samples in a rectangle of lattice points; on a torus of its images, at most a period wide and high.
+    pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<L::Sample>> {
         if rect.is_empty() {
             return Ok(Vec::new());
         }
-        let part = Part::new(&self.lattice, &rect);
+        let part = Part::new(&self.lattice, rect);
         let expected = self.layers.last().map_or(0.0, |layer| layer.expected(&part));
         let cache = self.cache.as_ref().filter(|cache| cache.is_for(expected));
-        let mut samples = self.up_to(job, self.layers.len(), &part, cache)?;
-        samples.retain(|sample| window.contains(self.lattice.position(sample.point())));
-        Ok(samples)
+        let samples = self.up_to(job, self.layers.len(), &part, cache)?;
+        if part.rect == *rect {
+            return Ok(samples);
+        }
+        let mut images = Vec::with_capacity(samples.len());
+        add_images(&mut images, &samples, &part, rect);
+        Ok(images)
     }
 
     /// The samples of the base and of the first `count` layers in a part.
