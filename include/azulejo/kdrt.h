@@ -14,7 +14,7 @@ extern "C" {
 #endif
 
 /// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream,
-/// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and
+/// azulejo_kdrt_create, azulejo_kdrt_create_wide and, with classes, azulejo_kdrt_sample_classes and
 /// azulejo_kdrt_create_classes.
 typedef struct azulejo_kdrt_options {
     /// The size of the struct in bytes; set by the _init function.
@@ -54,12 +54,12 @@ typedef struct azulejo_kdrt_options {
     /// Of a progressive order: how many times longer the radius of each level is than that of the
     /// next, 1.02 to 1.5. Every prefix of 100 samples and more covers the domain within this times
     /// its last rank, smaller ones within twice that rank, or the square of the quotient times it
-    /// if that is more. Default 0: 2^(1/8). Windows of large domains are several times as fast with
-    /// 2^(1/4).
+    /// if that is more. Default 0: 2^(1/8). Scattered windows of large domains are several times as
+    /// fast with 2^(1/4).
     double quotient;
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
-    /// coarse as the domain, so that the first level has one sample. Windows of large domains are
-    /// faster with a shorter one, such as 16 radii.
+    /// coarse as the domain, so that the first level has one sample. Scattered windows of large
+    /// domains are faster with a shorter one, such as 16 radii.
     double coarsest;
     /// Samples that stand already, x y each, finite, anywhere in the plane; on a torus they wrap.
     /// Read during the call only, but for azulejo_kdrt_create, which copies them. Default NULL:
@@ -245,7 +245,8 @@ typedef struct azulejo_kdrt azulejo_kdrt;
 /// domain, however many samples the domain has. A domain that is not tiled (see
 /// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
 /// the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
-/// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample.
+/// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample. In
+/// progressive order and of several classes it also keeps what windows make, in up to 16 MB.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
 /// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
@@ -253,6 +254,26 @@ typedef struct azulejo_kdrt azulejo_kdrt;
 azulejo_status azulejo_kdrt_create(const azulejo_context *context,
                                    const azulejo_kdrt_options *options,
                                    azulejo_kdrt **out);
+
+/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. Floats
+/// cannot carry so many samples, so that they are only given by azulejo_kdrt_window_into; other
+/// calls refuse the plane.
+///
+/// options: with a radius, in any order. It has other samples than azulejo_kdrt_create makes with
+/// the same options. They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to 1/256 of
+/// the radius, and every place is within the radius + 3 of these of a sample. The domain is at most
+/// 2^29 of them, at least 1,048,576 radii, wide and high, and large enough to be tiled (see
+/// azulejo_kdrt_sample).
+///
+/// out: the plane, to be freed with azulejo_kdrt_free. It keeps neither the context nor any thread.
+///
+/// Time and memory are those of azulejo_kdrt_create.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for `order` and `domain_max` too;
+/// AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_kdrt_create_wide(const azulejo_context *context,
+                                        const azulejo_kdrt_options *options,
+                                        azulejo_kdrt **out);
 
 /// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
 /// order as azulejo_kdrt_sample_window and the whole set. Those of several classes have
@@ -268,7 +289,8 @@ azulejo_status azulejo_kdrt_create(const azulejo_context *context,
 ///
 /// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
 /// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has for
-/// it.
+/// it. The plane keeps these, up to 16 MB, for the windows that follow: the first window in a
+/// region takes long, those near it do not. The samples do not depend on what is kept.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
 /// window, or more than memory holds.
@@ -276,6 +298,62 @@ azulejo_status azulejo_kdrt_window(const azulejo_kdrt *plane,
                                    const double *window_min,
                                    const double *window_max,
                                    azulejo_points **out);
+
+/// Writes the samples of a window into the caller's arrays, relative to its lower corner. The
+/// window of a periodic plane may lie anywhere and cross seams: so the plane goes on without end.
+///
+/// Positions are differences to window_min, rounded down to floats: at least 0, and at most the
+/// extent of the window. They are exact, and so at least the radius apart, if window_min is a
+/// multiple of azulejo_kdrt_unit and the window less than 2^24 units wide and high; otherwise two
+/// samples may be closer than the radius by the spacing of floats at the extent of the window.
+/// Windows that share an edge, given by the same number, share no sample and lose none, and window
+/// corners far from 0 cost no precision of the positions.
+///
+/// window_min, window_max: the corners, x y each. Periodic: at most 2^32 periods from the domain,
+/// at most one period apart. Bounded: in the domain.
+///
+/// positions: receives x y of each sample. NULL is allowed if `capacity` is 0.
+///
+/// ranks, classes: receive those of each sample; NULL if they are not wanted, or not there.
+///
+/// capacity: the number of samples that each array has room for. azulejo_kdrt_window_capacity has a
+/// number that suffices for all windows of a size.
+///
+/// count: receives the number of samples of the window. If it is above `capacity`, the call fails
+/// and writes nothing else.
+///
+/// Work, memory and threads are those of azulejo_kdrt_window. Without levels and classes the order
+/// is arbitrary, but the same in every call.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for `capacity` if it is below the number of samples, for
+/// `ranks` and `classes` if the plane has none; AZULEJO_ERROR_TOO_LARGE as azulejo_kdrt_window.
+azulejo_status azulejo_kdrt_window_into(const azulejo_kdrt *plane,
+                                        const double *window_min,
+                                        const double *window_max,
+                                        float *positions,
+                                        float *ranks,
+                                        uint32_t *classes,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// The most samples that a window of a plane can have, so that one array suffices for all windows
+/// of a size.
+///
+/// Of samples at least r apart a rectangle has at most 2 / sqrt(3) * w * h / r^2 + (w + h) / r + 1
+/// (Oler 1961), 1.66 times as many as large windows have on average; of several classes the sum of
+/// these.
+///
+/// extent: the width and height of the window, finite and above 0.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more.
+azulejo_status azulejo_kdrt_window_capacity(const azulejo_kdrt *plane,
+                                            const double *extent,
+                                            size_t *out);
+
+/// The spacing of the lattice on which all samples of a plane lie: a power of two, the spacing of
+/// floats at the largest coordinate of the domain; of a wide plane 1/512 to 1/256 of the radius. 0
+/// for NULL.
+double azulejo_kdrt_unit(const azulejo_kdrt *plane);
 
 /// Frees a plane. NULL is allowed.
 void azulejo_kdrt_free(azulejo_kdrt *plane);

@@ -18,7 +18,7 @@ use crate::kdrt::{
 };
 use crate::plane::rect::Rect;
 
-/// The most bytes of a cache.
+/// The bytes of a cache, about: what is added at once may exceed them.
 const MOST_BYTES: usize = 1 << 24;
 
 /// Blocks along the side of a page, of which a bit each says if they were made.
@@ -45,7 +45,7 @@ impl<S> Default for Page<S> {
 
 impl<S> Page<S> {
     fn bytes(&self) -> usize {
-        PAGE_BYTES + self.samples.len() * size_of::<S>()
+        PAGE_BYTES + self.samples.capacity() * size_of::<S>()
     }
 }
 
@@ -162,6 +162,7 @@ impl<S: Placed> Cache<S> {
             });
             found.extend(images.filter(|sample| rect.contains(sample.point())));
         }
+        pages.turn(self.most_bytes);
         drop(pages);
         let missing = missing.map(|missing| blocks.rect(&missing));
         if let Some(missing) = &missing {
@@ -184,10 +185,13 @@ impl<S: Placed> Cache<S> {
         fresh.retain(|_, bits| *bits != 0);
         for &page in fresh.keys() {
             if pages.used((layer, page)).is_none() {
-                pages.bytes += PAGE_BYTES;
+                pages.bytes += Page::<S>::default().bytes();
                 pages.young.insert((layer, page), Page::default());
             }
         }
+        let keys: Vec<Key> = fresh.keys().map(|&page| (layer, page)).collect();
+        let bytes = |pages: &Pages<S>| keys.iter().map(|key| pages.young[key].bytes()).sum::<usize>();
+        let before = bytes(&pages);
         for sample in samples {
             let (mut place, mut point) = ([0; 2], sample.point());
             for axis in 0..2 {
@@ -200,7 +204,6 @@ impl<S: Placed> Cache<S> {
                 && let Some(page) = pages.young.get_mut(&(layer, page))
             {
                 page.samples.push(sample.moved_to(point));
-                pages.bytes += size_of::<S>();
             }
         }
         for (page, bits) in fresh {
@@ -208,6 +211,7 @@ impl<S: Placed> Cache<S> {
                 page.made |= bits;
             }
         }
+        pages.bytes += bytes(&pages) - before;
         pages.turn(self.most_bytes);
     }
 

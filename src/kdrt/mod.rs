@@ -21,12 +21,12 @@ mod conquer;
 mod count;
 mod divide;
 mod fill;
-mod frame;
 mod merge;
 mod options;
 mod plane;
 mod progressive;
 mod region;
+mod relative;
 mod stack;
 #[cfg(feature = "stages")]
 #[doc(hidden)]

@@ -8,10 +8,10 @@ use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 use crate::kdrt::{
     classes::{self, Group},
-    frame::Frame,
     options::{Kind, Options, Progressive, check_leaf_size},
     progressive::{self, Level},
     region::Part,
+    relative::RelativeWindow,
     stack::{BYTES_PER_SAMPLE, Base, PATTERN_SHARE, Stack, require},
     tiling::Tiling,
 };
@@ -134,7 +134,8 @@ impl Plane {
     /// All samples: those of [`sample`] with the same options, in parallel.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for a [wide](Plane::wide) plane; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+    /// [`Error::InvalidArgument`] for a [wide](Plane::wide) plane; [`Error::TooLarge`] above 2^32 samples or the
+    /// available memory; [`Error::Cancelled`].
     pub fn whole(&self, context: &Context, progress: Option<&Progress>) -> Result<Points<2>> {
         self.set.require_floats()?;
         self.set.require_whole()?;
@@ -176,7 +177,7 @@ impl Plane {
     /// share an edge, given by the same number, share no sample and lose none. In progressive order samples are sorted
     /// as in [`Plane::window`], without classes and levels they are in an arbitrary order.
     ///
-    /// Positions are the differences to `window_min`, rounded down to floats: `0 <= x`, and below the extent. They are
+    /// Positions are the differences to `window_min`, rounded down to floats: at least 0, and at most the extent. They are
     /// exact, and so at least the radius apart, if `window_min` is a multiple of the plane's [unit](Plane::unit) and the
     /// window is less than 2^24 units wide and high. In other windows two samples may be closer than the radius by the
     /// float spacing at the window's extent. Periods are those of the domain, `max - min`; a corner many periods away is
@@ -188,9 +189,9 @@ impl Plane {
     /// [`Error::InvalidArgument`] for `window_min` and `window_max`; [`Error::TooLarge`] as [`Plane::window`].
     pub fn relative_window(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Points<2>> {
         let Set { domain, lattice, .. } = &self.set;
-        let frame = Frame::new(domain, lattice, window_min, window_max)?;
+        let window = RelativeWindow::new(domain, lattice, window_min, window_max)?;
         self.set.require([0, 1].map(|axis| window_max[axis] - window_min[axis]))?;
-        Context::new(1)?.run(None, |job| self.layers.framed(job, &self.set, &frame))
+        Context::new(1)?.run(None, |job| self.layers.relative(job, &self.set, &window))
     }
 
     /// True if samples have ranks.
@@ -495,22 +496,22 @@ impl Layers {
     }
 
     /// The samples in a window, seen from its corner.
-    fn framed(&self, job: &Job, set: &Set, frame: &Frame) -> Result<Points<2>> {
-        let position = |point| frame.position(&set.lattice, point);
+    fn relative(&self, job: &Job, set: &Set, window: &RelativeWindow) -> Result<Points<2>> {
+        let position = |point| window.position(&set.lattice, point);
         match self {
             Self::None(base) => {
                 let mut samples = Vec::new();
                 let whole = Part::whole(&set.lattice);
-                for (piece, [along, up]) in whole.images(&frame.rect).filter(|(piece, _)| !piece.is_empty()) {
+                for (piece, [along, up]) in whole.images(&window.rect).filter(|(piece, _)| !piece.is_empty()) {
                     let points = base.points(job, &piece)?;
                     samples.extend(points.into_iter().map(|[x, y]| position([x + along, y + up])));
                 }
                 Ok(set.in_any_order(samples))
             }
             Self::Progressive(stack, rank) => {
-                Ok(progressive::ordered(stack.lattice(), *rank, stack.points(job, &frame.rect)?, position))
+                Ok(progressive::ordered(stack.lattice(), *rank, stack.points(job, &window.rect)?, position))
             }
-            Self::Classes(stack, ranks) => Ok(classes::ordered(ranks, stack.points(job, &frame.rect)?, position)),
+            Self::Classes(stack, ranks) => Ok(classes::ordered(ranks, stack.points(job, &window.rect)?, position)),
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
 /// Options of azulejo_kdrt_sample, azulejo_kdrt_sample_window, azulejo_kdrt_stream,
-/// azulejo_kdrt_create and, with classes, azulejo_kdrt_sample_classes and
+/// azulejo_kdrt_create, azulejo_kdrt_create_wide and, with classes, azulejo_kdrt_sample_classes and
 /// azulejo_kdrt_create_classes.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -62,12 +62,12 @@ pub struct azulejo_kdrt_options {
     /// Of a progressive order: how many times longer the radius of each level is than that of the
     /// next, 1.02 to 1.5. Every prefix of 100 samples and more covers the domain within this times
     /// its last rank, smaller ones within twice that rank, or the square of the quotient times it
-    /// if that is more. Default 0: 2^(1/8). Windows of large domains are several times as fast with
-    /// 2^(1/4).
+    /// if that is more. Default 0: 2^(1/8). Scattered windows of large domains are several times as
+    /// fast with 2^(1/4).
     pub quotient: f64,
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
-    /// coarse as the domain, so that the first level has one sample. Windows of large domains are
-    /// faster with a shorter one, such as 16 radii.
+    /// coarse as the domain, so that the first level has one sample. Scattered windows of large
+    /// domains are faster with a shorter one, such as 16 radii.
     pub coarsest: f64,
     /// Samples that stand already, x y each, finite, anywhere in the plane; on a torus they wrap.
     /// Read during the call only, but for azulejo_kdrt_create, which copies them. Default NULL:

@@ -18,7 +18,7 @@ const MOST_TURNS: f64 = (1u64 << 32) as f64;
 
 /// A window of a plane, seen from its corner.
 #[derive(Debug)]
-pub struct Frame {
+pub struct RelativeWindow {
     /// The lattice points of the window. On a torus they begin in the first period and may reach into the second one.
     pub rect: Rect,
     /// The corner in the first period.
@@ -35,7 +35,7 @@ struct Edge {
     point: i32,
 }
 
-impl Frame {
+impl RelativeWindow {
     /// The window between two corners of a torus, anywhere, at most a period wide and high; or of a bounded domain.
     ///
     /// # Errors
@@ -126,16 +126,16 @@ mod tests {
                         edges[part][0] = edges[part - 1][0] + rng.unit() * 0.33 * domain.extent()[0];
                     }
                     let top = start[1] + 0.4 * domain.extent()[1];
-                    let frame = |from: usize, to: usize| {
-                        Frame::new(&domain, &lattice, edges[from], [edges[to][0], top]).unwrap().rect
+                    let window = |from: usize, to: usize| {
+                        RelativeWindow::new(&domain, &lattice, edges[from], [edges[to][0], top]).unwrap().rect
                     };
                     if edges.windows(2).any(|pair| pair[0][0] >= pair[1][0]) {
                         continue;
                     }
-                    let lengths = (0..3).map(|part| frame(part, part + 1).length(0)).sum::<i32>();
-                    assert_eq!(lengths, frame(0, 3).length(0), "{domain:?} {edges:?}");
+                    let lengths = (0..3).map(|part| window(part, part + 1).length(0)).sum::<i32>();
+                    assert_eq!(lengths, window(0, 3).length(0), "{domain:?} {edges:?}");
                     for part in 0..2 {
-                        let (end, next) = (frame(part, part + 1).max[0], frame(part + 1, part + 2).min[0]);
+                        let (end, next) = (window(part, part + 1).max[0], window(part + 1, part + 2).min[0]);
                         assert_eq!((end - next).rem_euclid(lattice.size[0]), 0);
                     }
                 }
@@ -152,12 +152,12 @@ mod tests {
             let steps = [0, 1].map(|axis: usize| rng.below(1 << 40) as i64 - (1 << 39) + axis as i64);
             let corner = [0, 1].map(|axis| domain.min[axis] + steps[axis] as f64 * lattice.unit());
             let side = 0.5 + rng.unit();
-            let frame = Frame::new(&domain, &lattice, corner, corner.map(|x| x + side)).unwrap();
+            let window = RelativeWindow::new(&domain, &lattice, corner, corner.map(|x| x + side)).unwrap();
             let first = [0, 1].map(|axis| steps[axis].rem_euclid(i64::from(lattice.size[axis])) as i32);
-            assert_eq!(frame.rect.min, first);
+            assert_eq!(window.rect.min, first);
             for _ in 0..20 {
-                let by = [0, 1].map(|axis| rng.below(frame.rect.length(axis) as u64) as i32);
-                let position = frame.position(&lattice, [first[0] + by[0], first[1] + by[1]]);
+                let by = [0, 1].map(|axis| rng.below(window.rect.length(axis) as u64) as i32);
+                let position = window.position(&lattice, [first[0] + by[0], first[1] + by[1]]);
                 assert_eq!(position.map(f64::from), by.map(|by| f64::from(by) * lattice.unit()));
             }
         }
@@ -171,9 +171,9 @@ mod tests {
             for _ in 0..500 {
                 let min = [0, 1].map(|axis: usize| (rng.unit() - 0.5) * 1e4 + axis as f64);
                 let max = [0, 1].map(|axis: usize| min[axis] + 0.6 * rng.unit() + 1e-3);
-                let frame = Frame::new(&domain, &lattice, min, max).unwrap();
-                for corner in [frame.rect.min, frame.rect.max.map(|x| x - 1)] {
-                    for (axis, x) in frame.position(&lattice, corner).into_iter().enumerate() {
+                let window = RelativeWindow::new(&domain, &lattice, min, max).unwrap();
+                for corner in [window.rect.min, window.rect.max.map(|x| x - 1)] {
+                    for (axis, x) in window.position(&lattice, corner).into_iter().enumerate() {
                         // Corners so far away are rounded to 1e-12 when they are brought back.
                         assert!(x >= 0.0 && f64::from(x) < max[axis] - min[axis] + 1e-11, "{x} {min:?} {max:?}");
                     }
@@ -187,7 +187,7 @@ mod tests {
         let domain = torus([0.0; 2], [2.0; 2]);
         let bounded = Domain { boundary: Boundary::Bounded, ..domain };
         let refuse = |domain: &Domain, min: [f64; 2], max: [f64; 2]| {
-            Frame::new(domain, &lattice(domain), min, max).unwrap_err().to_string()
+            RelativeWindow::new(domain, &lattice(domain), min, max).unwrap_err().to_string()
         };
         assert_eq!(refuse(&domain, [0.0; 2], [0.5, 2.5]), "window_max: [1] is 2.5, more than the period 2 above 0");
         assert_eq!(
