@@ -27,6 +27,13 @@ const PAGE: i32 = 8;
 /// The bytes of a page without samples, about.
 const PAGE_BYTES: usize = 96;
 
+/// A layer of which blocks may be cached.
+pub trait Cached {
+    /// The blocks that the layer is made by, each of which is a function of the plane; none for one that is made as a
+    /// whole.
+    fn blocks(&self) -> Option<&Blocks>;
+}
+
 /// The number of a layer in its stack, and the place of a page in it.
 type Key = (usize, [i32; 2]);
 

@@ -10,10 +10,8 @@ use crate::kdrt::{
     classes::{self, Group},
     options::{Kind, Options, Progressive, check_leaf_size},
     progressive::{self, Level},
-    region::Part,
     relative::RelativeWindow,
     stack::{BYTES_PER_SAMPLE, Base, PATTERN_SHARE, Stack, require},
-    tiling::Tiling,
 };
 use crate::plane::{
     GivenDisks,
@@ -319,7 +317,7 @@ impl Set {
         match &radii {
             Radii::One { radius, .. } => {
                 given.check()?;
-                if !Tiling::is_worthwhile(&lattice, leaf_size) {
+                if !Base::is_tiled(&lattice, leaf_size) {
                     estimate(domain.extent(), *radius)?;
                 }
             }
@@ -348,7 +346,7 @@ impl Set {
             }
         };
         let lattice = Lattice::of_radius(&domain, radius)?;
-        if !Tiling::is_worthwhile(&lattice, leaf_size) {
+        if !Base::is_tiled(&lattice, leaf_size) {
             let [width, height] = domain.extent();
             let reason = format!("{width} by {height} is not tiled with radius {radius:?}: such a plane is not wide");
             return Err(Error::invalid("domain_max", reason));
@@ -500,13 +498,8 @@ impl Layers {
         let position = |point| window.position(&set.lattice, point);
         match self {
             Self::None(base) => {
-                let mut samples = Vec::new();
-                let whole = Part::whole(&set.lattice);
-                for (piece, [along, up]) in whole.images(&window.rect).filter(|(piece, _)| !piece.is_empty()) {
-                    let points = base.points(job, &piece)?;
-                    samples.extend(points.into_iter().map(|[x, y]| position([x + along, y + up])));
-                }
-                Ok(set.in_any_order(samples))
+                let points = base.images(job, &set.lattice, &window.rect)?;
+                Ok(set.in_any_order(points.into_iter().map(position).collect()))
             }
             Self::Progressive(stack, rank) => {
                 Ok(progressive::ordered(stack.lattice(), *rank, stack.points(job, &window.rect)?, position))

@@ -26,7 +26,7 @@ use crate::kdrt::{
     fill::{Filling, Footprints},
     options::{Options, Progressive},
     region::{Part, Placed, Region},
-    stack::{Base, Layer, Stack, images},
+    stack::{Base, Cached, Layer, Stack, images},
     tiling::{cut, is_wide},
 };
 use crate::math::{exp2, hypot, log2, pow, rounded_down};
@@ -419,15 +419,17 @@ impl Level {
     }
 }
 
+impl Cached for Level {
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+}
+
 impl Layer for Level {
     type Sample = Sample;
 
     fn is_kept(&self) -> bool {
         self.expected(&Part::whole(&self.lattice)) <= self.most_kept
-    }
-
-    fn blocks(&self) -> Option<&Blocks> {
-        self.blocks.as_ref()
     }
 
     fn expected(&self, part: &Part) -> f64 {

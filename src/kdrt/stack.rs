@@ -11,15 +11,15 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::kdrt::{
-    blocks::Blocks,
     cache::Cache,
-    conquer::capacity,
     region::{Part, Placed, Region},
     tiling::Tiling,
 };
 use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::Domain;
 use crate::{maximal, memory};
+
+pub use crate::kdrt::cache::Cached;
 
 /// The number of samples from which on the available memory is checked: the query takes about 0.1 ms, as long as making a
 /// small window.
@@ -40,15 +40,11 @@ pub fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> R
 const TILING_SPEED: f64 = 10.0;
 
 /// A layer, which can be filled in any part of the plane.
-pub trait Layer {
+pub trait Layer: Cached {
     type Sample: Placed;
 
     /// True if a retained plane stores all samples of this layer and of those before.
     fn is_kept(&self) -> bool;
-
-    /// The blocks that the layer is made by, each of which is a function of the plane; none for one that is made as a
-    /// whole.
-    fn blocks(&self) -> Option<&Blocks>;
 
     /// An approximate upper bound of the number of samples in a part after this layer: the cost of making them.
     fn expected(&self, part: &Part) -> f64;
@@ -219,13 +215,8 @@ fn add_images<S: Placed>(samples: &mut Vec<S>, made: &[S], part: &Part, rect: &R
 
 /// The samples of a base in a part; on a torus their images. All have the attributes of the given one.
 pub fn images<S: Placed>(job: &Job, lattice: &Lattice, base: &Base, sample: S, part: &Part) -> Result<Vec<S>> {
-    let mut samples = Vec::new();
-    let pieces: Vec<_> = Part::whole(lattice).images(&part.rect).collect();
-    for (piece, [along, up]) in pieces.into_iter().filter(|(piece, _)| !piece.is_empty()) {
-        let points = base.points(job, &piece)?;
-        samples.extend(points.into_iter().map(|[x, y]| sample.moved_to([x + along, y + up])));
-    }
-    Ok(samples)
+    let points = base.images(job, lattice, &part.rect)?;
+    Ok(points.into_iter().map(|point| sample.moved_to(point)).collect())
 }
 
 // # The base
@@ -280,11 +271,7 @@ impl Base {
     /// All samples.
     pub fn whole(&self, job: &Job) -> Result<Vec<[f32; 2]>> {
         match self {
-            Self::Tiled(tiling) => {
-                let windows = tiling.windows();
-                let expected = capacity(tiling.lattice().expected_samples());
-                job.concat_about(expected, windows.len(), |i| tiling.window(&windows[i]))
-            }
+            Self::Tiled(tiling) => tiling.whole(job),
             Self::Whole(whole) => Ok(whole.samples.clone()),
         }
     }
@@ -297,6 +284,11 @@ impl Base {
         }
     }
 
+    /// True if the set of a lattice is tiled, not made as a whole.
+    pub fn is_tiled(lattice: &Lattice, leaf_size: f64) -> bool {
+        Tiling::is_worthwhile(lattice, leaf_size)
+    }
+
     /// The samples in a rectangle of the domain, as lattice points.
     pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<[i32; 2]>> {
         match self {
@@ -306,6 +298,15 @@ impl Base {
                 Ok(points.filter(|&point| rect.contains(point)).collect())
             }
         }
+    }
+
+    /// The samples in a rectangle of lattice points; on a torus of its images.
+    pub fn images(&self, job: &Job, lattice: &Lattice, rect: &Rect) -> Result<Vec<[i32; 2]>> {
+        let (whole, mut images) = (Part::whole(lattice), Vec::new());
+        for (piece, [along, up]) in whole.images(rect).filter(|(piece, _)| !piece.is_empty()) {
+            images.extend(self.points(job, &piece)?.into_iter().map(|[x, y]| [x + along, y + up]));
+        }
+        Ok(images)
     }
 
     /// Hands all samples to `visit`, part by part.

@@ -112,6 +112,13 @@ impl Tiling {
         cut(&Rect { min: [0; 2], max: self.blocks.counts() }, side)
     }
 
+    /// All samples, in parallel.
+    pub fn whole(&self, job: &Job) -> Result<Vec<[f32; 2]>> {
+        let windows = self.windows();
+        let expected = capacity(self.lattice.expected_samples());
+        job.concat_about(expected, windows.len(), |i| self.window(&windows[i]))
+    }
+
     /// The samples in a rectangle of fill blocks.
     pub fn window(&self, window: &Rect) -> Vec<[f32; 2]> {
         self.window_on(&self.lattice, window)
@@ -151,6 +158,7 @@ impl Tiling {
     }
 
     /// The lattice of the domain.
+    #[cfg(feature = "stages")]
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }

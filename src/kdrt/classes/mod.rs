@@ -24,7 +24,7 @@ use crate::kdrt::{
     options::{Options, Progressive},
     progressive,
     region::{Part, Placed, Region},
-    stack::{Base, Layer, Stack},
+    stack::{Base, Cached, Layer, Stack},
     tiling::Tiling,
 };
 use crate::math::rounded_down;
@@ -366,6 +366,12 @@ impl Work for FillBlock<'_> {
     }
 }
 
+impl Cached for Group {
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+}
+
 impl Layer for Group {
     type Sample = Sample;
 
@@ -376,10 +382,6 @@ impl Layer for Group {
     /// True if no part of the group can be made without the rest.
     fn is_kept(&self) -> bool {
         self.blocks.is_none()
-    }
-
-    fn blocks(&self) -> Option<&Blocks> {
-        self.blocks.as_ref()
     }
 
     fn around(&self, part: &Part) -> Part {
