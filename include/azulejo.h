@@ -23,7 +23,9 @@
  * Which call do I want?
  *
  *   samples of a rectangle                        azulejo_kdrt_sample
- *   a plane without end, part by part             azulejo_kdrt_create, azulejo_kdrt_window
+ *   a plane, part by part                         azulejo_kdrt_create, azulejo_kdrt_window
+ *   a plane without end, into the host's arrays   azulejo_kdrt_create or azulejo_kdrt_create_wide,
+ *                                                 azulejo_kdrt_window_into
  *   more samples than memory holds                azulejo_kdrt_stream
  *   a rectangle with a density, such as an image  azulejo_dcr_scatter, azulejo_dcr_relax_density
  *   samples of a mesh                             azulejo_psp_sample

@@ -1063,6 +1063,13 @@ public:
         });
     }
 
+    /// A plane of a million radii a side and more; see azulejo_kdrt_create_wide.
+    static Status try_create_wide(const Context &context, const KdrtOptions &options, Kdrt &out) {
+        return detail::make(out, [&](auto **plane) {
+            return azulejo_kdrt_create_wide(context.get(), &options, plane);
+        });
+    }
+
     /// A plane of several classes; see azulejo_kdrt_create_classes.
     static Status try_create(const Context &context, const KdrtOptions &options,
                              const Classes &classes, Kdrt &out) {
@@ -1080,6 +1087,35 @@ public:
         });
     }
 
+    /// Writes the samples of a window, relative to window_min, into arrays of the caller: x y each,
+    /// and ranks and classes for as many samples, if they are wanted. `count` is the number of
+    /// samples, also where the arrays are too small; see azulejo_kdrt_window_into.
+    Status try_window_into(const Pair &window_min, const Pair &window_max, Span<float> positions,
+                           std::size_t &count, Span<float> ranks = {},
+                           Span<std::uint32_t> classes = {}) const {
+        const std::size_t capacity = positions.size() / 2;
+        const auto is_short = [&](const auto &array) {
+            return !array.empty() && array.size() < capacity;
+        };
+        if (is_short(ranks) || is_short(classes)) {
+            return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                          std::string(is_short(ranks) ? "ranks" : "classes") +
+                              ": fewer than positions has room for, " + std::to_string(capacity));
+        }
+        return Status(azulejo_kdrt_window_into(
+            get(), window_min.data(), window_max.data(), positions.data(),
+            ranks.empty() ? nullptr : ranks.data(), classes.empty() ? nullptr : classes.data(),
+            capacity, &count));
+    }
+
+    /// The most samples of a window of an extent; see azulejo_kdrt_window_capacity.
+    Status try_window_capacity(const Pair &extent, std::size_t &out) const {
+        return Status(azulejo_kdrt_window_capacity(get(), extent.data(), &out));
+    }
+
+    /// The spacing of the lattice of the samples; see azulejo_kdrt_unit.
+    double unit() const noexcept { return azulejo_kdrt_unit(get()); }
+
 #ifndef AZULEJO_NO_EXCEPTIONS
     Kdrt(const Context &context, const KdrtOptions &options) {
         check(try_create(context, options, *this));
@@ -1089,10 +1125,29 @@ public:
         check(try_create(context, options, classes, *this));
     }
 
+    static Kdrt wide(const Context &context, const KdrtOptions &options) {
+        Kdrt plane;
+        check(try_create_wide(context, options, plane));
+        return plane;
+    }
+
     Points window(const Pair &window_min, const Pair &window_max) const {
         Points points;
         check(try_window(window_min, window_max, points));
         return points;
+    }
+
+    std::size_t window_into(const Pair &window_min, const Pair &window_max, Span<float> positions,
+                            Span<float> ranks = {}, Span<std::uint32_t> classes = {}) const {
+        std::size_t count = 0;
+        check(try_window_into(window_min, window_max, positions, count, ranks, classes));
+        return count;
+    }
+
+    std::size_t window_capacity(const Pair &extent) const {
+        std::size_t capacity = 0;
+        check(try_window_capacity(extent, capacity));
+        return capacity;
     }
 #endif
 };

@@ -135,16 +135,29 @@ fn window(options: &azulejo_kdrt_options, given: &Given, patience: &Patience, in
     patience.again(u32::MAX);
     // SAFETY: the options have the size in their `struct_size`.
     let plane = create(|out: Out<_>| unsafe { azulejo_kdrt_create(context(), options, out) });
+    let handle = plane.as_ref().map_or(std::ptr::null(), |plane| plane.get().cast_const());
     // SAFETY: the corners are two numbers each.
-    let call = |out: Out<_>| unsafe {
-        azulejo_kdrt_window(
-            plane.as_ref().map_or(std::ptr::null(), |plane| plane.get().cast_const()),
+    let call = |out: Out<_>| unsafe { azulejo_kdrt_window(handle, low.as_ptr(), high.as_ptr(), out) };
+    assert_eq!(create(call).map(Set::of).as_ref(), Some(&part));
+    // The same samples, seen from the corner.
+    let (mut seen, mut count) = (vec![[-1f32; 2]; part.positions.len()], 0);
+    let (positions, none) = (seen.as_mut_ptr().cast(), std::ptr::null_mut());
+    // SAFETY: the corners are two numbers each, and there is room for so many samples.
+    let status = unsafe {
+        azulejo_kdrt_window_into(
+            handle,
             low.as_ptr(),
             high.as_ptr(),
-            out,
+            positions,
+            none,
+            std::ptr::null_mut(),
+            seen.len(),
+            &raw mut count,
         )
     };
-    assert_eq!(create(call).map(Set::of).as_ref(), Some(&part));
+    assert!(accepted(status) && count == seen.len());
+    let is_inside = |point: &[f32; 2]| (0..2).all(|axis| (0.0..=high[axis] - low[axis]).contains(&point[axis].into()));
+    assert!(seen.iter().all(is_inside));
     let Some(mut whole) = create_set(options) else { panic!("a window without the whole") };
     check_covered(options, given, &whole);
     if options.boundary == 1

@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-/// Options of azulejo_kdrt_sample, _sample_window, _stream and _create, and with classes of
-/// azulejo_kdrt_sample_classes and _create_classes.
+/// Options of azulejo_kdrt_sample, _sample_window, _stream, _create and _create_wide, and with
+/// classes of azulejo_kdrt_sample_classes and _create_classes.
 typedef struct azulejo_kdrt_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
@@ -38,12 +38,12 @@ typedef struct azulejo_kdrt_options {
     /// well spread, and azulejo_points_ranks says how well. Must be any for streams.
     uint32_t order;
     /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8). Windows of
-    /// large domains are several times as fast with 2^(1/4).
+    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8). Scattered
+    /// windows of large domains are several times as fast with 2^(1/4).
     double quotient;
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
-    /// coarse as the domain, so that the first level has one sample. Windows of large domains are
-    /// faster with a shorter one, such as 16 radii.
+    /// coarse as the domain, so that the first level has one sample. Scattered windows of large
+    /// domains are faster with a shorter one, such as 16 radii.
     double coarsest;
     /// Samples that stand already, x y each, anywhere in the plane; on a torus they wrap. Default
     /// NULL: none. Must be none where there is a `count`. They are not moved, dropped, compared
@@ -155,10 +155,24 @@ typedef struct azulejo_kdrt azulejo_kdrt;
 ///   MB and 1 byte for each radius of the sides of the domain, however many samples the domain has,
 ///   up to about 10^11. A domain that is not tiled (see azulejo_kdrt_sample) is made as a whole and
 ///   kept, in 8 bytes per sample; in progressive order levels of up to 65,536 samples are, unless
-///   the coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB.
+///   the coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB. In progressive
+///   order and of several classes a plane also keeps what windows make, in up to 16 MB.
 azulejo_status azulejo_kdrt_create(const azulejo_context *context,
                                    const azulejo_kdrt_options *options,
                                    azulejo_kdrt **out);
+
+/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. Floats
+/// cannot carry so many samples, so that they are only given by azulejo_kdrt_window_into; other
+/// calls refuse the plane.
+/// - options: with a radius, in any order. The samples are others than those of azulejo_kdrt_create
+///   with the same options. They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to
+///   1/256 of the radius, and every place is within the radius + 3 of these of a sample. The domain
+///   is at most 2^29 of them, at least 1,048,576 radii, wide and high, and large enough to be tiled
+///   (see azulejo_kdrt_sample).
+/// - O(samples of the pattern) time, and the memory of azulejo_kdrt_create.
+azulejo_status azulejo_kdrt_create_wide(const azulejo_context *context,
+                                        const azulejo_kdrt_options *options,
+                                        azulejo_kdrt **out);
 
 /// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
 /// order as azulejo_kdrt_sample_window and the whole set, with classes where it has some. All work
@@ -167,10 +181,59 @@ azulejo_status azulejo_kdrt_create(const azulejo_context *context,
 /// - window_min, window_max: as in azulejo_kdrt_sample_window.
 /// - O(samples in the window and within about 20 radii of it) time and memory; in progressive order
 ///   also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has.
+///   The plane keeps these, up to 16 MB: the first window in a region takes long, those near it do
+///   not. The samples do not depend on what is kept.
 azulejo_status azulejo_kdrt_window(const azulejo_kdrt *plane,
                                    const double *window_min,
                                    const double *window_max,
                                    azulejo_points **out);
+
+/// Writes the samples of a window into the caller's arrays, relative to its lower corner. The
+/// window of a periodic plane may lie anywhere and cross seams: so the plane goes on without end.
+///
+/// Positions are differences to window_min, rounded down to floats: at least 0, and at most the
+/// extent of the window. They are exact, and so at least the radius apart, if window_min is a
+/// multiple of azulejo_kdrt_unit and the window less than 2^24 units wide and high; otherwise two
+/// samples may be closer than the radius by the spacing of floats at the extent of the window.
+/// Windows that share an edge, given by the same number, share no sample and lose none, and window
+/// corners far from 0 cost no precision of the positions.
+/// - window_min, window_max: the corners, x y each. Periodic: at most 2^32 periods from the domain,
+///   at most one period apart. Bounded: in the domain.
+/// - positions: receives x y of each sample. May be NULL if `capacity` is 0.
+/// - ranks, classes: receive those of each sample; NULL if they are not wanted, or not there.
+/// - capacity: the number of samples that each array has room for. azulejo_kdrt_window_capacity has
+///   a number that suffices for all windows of a size.
+/// - count: receives the number of samples of the window. If it is above `capacity`, the call fails
+///   and writes nothing else.
+///
+/// Work, memory and threads are those of azulejo_kdrt_window. Without levels and classes the order
+/// is arbitrary, but the same in every call.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `capacity` below the number of samples, and
+///   for `ranks` or `classes` of a plane that has none.
+azulejo_status azulejo_kdrt_window_into(const azulejo_kdrt *plane,
+                                        const double *window_min,
+                                        const double *window_max,
+                                        float *positions,
+                                        float *ranks,
+                                        uint32_t *classes,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// The most samples that a window of a plane can have, so that one array suffices for all windows
+/// of a size.
+///
+/// Of samples at least r apart a rectangle has at most 2 / sqrt(3) * w * h / r^2 + (w + h) / r + 1
+/// (Oler 1961), 1.66 times as many as large windows have on average; of several classes the sum of
+/// these.
+/// - extent: the width and height of the window, above 0.
+azulejo_status azulejo_kdrt_window_capacity(const azulejo_kdrt *plane,
+                                            const double *extent,
+                                            size_t *out);
+
+/// The spacing of the lattice on which all samples of a plane lie: a power of two, the spacing of
+/// floats at the largest coordinate of the domain; of a wide plane 1/512 to 1/256 of the radius. 0
+/// for NULL.
+double azulejo_kdrt_unit(const azulejo_kdrt *plane);
 
 /// Frees a plane. NULL is allowed.
 void azulejo_kdrt_free(azulejo_kdrt *plane);

@@ -76,6 +76,11 @@ impl Blocks {
         self.counts
     }
 
+    /// Lattice points per axis; on a torus also the period.
+    pub fn size(&self) -> [i32; 2] {
+        self.size
+    }
+
     /// The longest sides of blocks.
     pub fn largest(&self) -> [i32; 2] {
         let longest = |axis: usize| self.edges[axis].windows(2).map(|edges| edges[1] - edges[0]).max().unwrap_or(0);
@@ -104,8 +109,8 @@ impl Blocks {
         }
     }
 
-    /// The column (axis 0) or row (axis 1) that holds a lattice point of the domain.
-    fn index(&self, axis: usize, point: i32) -> i32 {
+    /// The column (axis 0) or row (axis 1) that holds a lattice point of the domain, or of its images.
+    pub fn index(&self, axis: usize, point: i32) -> i32 {
         let regular = i64::from(point) * i64::from(self.counts[axis]) / i64::from(self.size[axis]);
         let mut index = regular as i32;
         while self.edge(axis, index) > point {

@@ -8,11 +8,13 @@
 //! The thesis processes the seams sequentially. Here every step is a function of position alone, so that a window of
 //! the plane (`tiling.rs`) can be made without the rest; this is how threads share the work, and how any part of a
 //! plane can be made alone (`plane.rs`). An order whose prefixes are well spread (`progressive.rs`) and several classes
-//! (`classes/`) are layers, each filled around those before (`stack.rs`). `count.rs` takes a number of samples instead
+//! (`classes/`) are layers, each filled around those before (`stack.rs`); a plane that is kept remembers what its windows
+//! made of them (`cache.rs`). `count.rs` takes a number of samples instead
 //! of a radius; sets that were made separately are merged into one by the same two steps (`merge.rs`). Each file states
 //! its departures from the thesis.
 
 mod blocks;
+mod cache;
 mod classes;
 mod clip;
 mod conquer;
@@ -24,6 +26,7 @@ mod options;
 mod plane;
 mod progressive;
 mod region;
+mod relative;
 mod stack;
 #[cfg(feature = "stages")]
 #[doc(hidden)]

@@ -10,8 +10,8 @@ use crate::kdrt::{
     classes::{self, Group},
     options::{Kind, Options, Progressive, check_leaf_size},
     progressive::{self, Level},
+    relative::RelativeWindow,
     stack::{BYTES_PER_SAMPLE, Base, PATTERN_SHARE, Stack, require},
-    tiling::Tiling,
 };
 use crate::plane::{
     GivenDisks,
@@ -88,7 +88,8 @@ pub fn sample_window(
 /// A progressive order also takes 16 KB per level, and keeps the levels that have up to 65,536 samples in the whole
 /// domain, in 16 bytes per sample. Given samples are copied for each class, in 40 bytes each, and a window costs those
 /// near it. Groups of classes that fill a torus of less than two blocks (see [`Kind::Classes`]) are kept with those
-/// before, in 12 bytes per sample.
+/// before, in 12 bytes per sample. In progressive order and of several classes, what windows make is kept for those
+/// after them, in at most 16 MB: see [`Plane::window`].
 pub struct Plane {
     set: Set,
     layers: Layers,
@@ -112,11 +113,29 @@ impl Plane {
         Ok(Self { set, layers })
     }
 
+    /// A wide plane: of one radius in an arbitrary order, up to a million radii wide and high and more, wherever it lies.
+    /// Floats cannot carry so many samples: they are only given by [`Plane::relative_window`].
+    ///
+    /// Its samples lie on a lattice of a [unit](Plane::unit) of 1/512 to 1/256 of the radius; no place is farther from
+    /// all samples than the radius + 3 units. It has other samples than the plane of [`Plane::new`] with the same
+    /// options. Time and memory are those of [`Plane::new`].
+    ///
+    /// # Errors
+    /// Those of [`Plane::new`]; [`Error::InvalidArgument`] for a domain of more than 2^29 units a side or one that is
+    /// not tiled (see [`sample`]), a progressive order, and several classes.
+    pub fn wide(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Self> {
+        let set = Set::wide(options)?;
+        let layers = context.run(progress, |job| Layers::new(job, &set, options))?;
+        Ok(Self { set, layers })
+    }
+
     /// All samples: those of [`sample`] with the same options, in parallel.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+    /// [`Error::InvalidArgument`] for a [wide](Plane::wide) plane; [`Error::TooLarge`] above 2^32 samples or the
+    /// available memory; [`Error::Cancelled`].
     pub fn whole(&self, context: &Context, progress: Option<&Progress>) -> Result<Points<2>> {
+        self.set.require_floats()?;
         self.set.require_whole()?;
         context.run(progress, |job| self.layers.whole(job, &self.set))
     }
@@ -135,14 +154,86 @@ impl Plane {
     /// order every level adds about 12 of its radii: see [`Progressive`](super::Progressive). Each group of classes of
     /// equal own radii adds about 30 times the largest distance within it, and one to the groups before.
     ///
-    /// O(n) in time and memory for the n samples of the window and its surroundings.
+    /// O(n) in time and memory for the n samples of the window and its surroundings. In progressive order and of several
+    /// classes these are wide, but made once: the plane keeps them, as far as they fit into 16 MB, so that the first
+    /// window in a region is slow, and windows near those before are fast. The samples do not depend on what is kept.
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for `window_min` and `window_max` if the window is empty or reaches beyond the
-    /// domain; [`Error::TooLarge`] above 2^32 samples or the available memory.
+    /// domain, and for a [wide](Plane::wide) plane; [`Error::TooLarge`] above 2^32 samples or the available memory.
     pub fn window(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Points<2>> {
+        self.set.require_floats()?;
         let window = self.set.window(window_min, window_max)?;
         Context::new(1)?.run(None, |job| self.layers.window(job, &self.set, &window))
+    }
+
+    /// The samples of a window with positions relative to its lower corner, on the calling thread, with their ranks or
+    /// classes. On a torus, whose images fill the plane without end, the window lies anywhere and may cross seams: up to
+    /// 2^32 periods away, at most a period wide and high.
+    ///
+    /// A sample lies in the window if `window_min <= x < window_max`, in exact numbers, of one of its images. Windows that
+    /// share an edge, given by the same number, share no sample and lose none. In progressive order samples are sorted
+    /// as in [`Plane::window`], without classes and levels they are in an arbitrary order.
+    ///
+    /// Positions are the differences to `window_min`, rounded down to floats: at least 0, and at most the extent. They are
+    /// exact, and so at least the radius apart, if `window_min` is a multiple of the plane's [unit](Plane::unit) and the
+    /// window is less than 2^24 units wide and high. In other windows two samples may be closer than the radius by the
+    /// float spacing at the window's extent. Periods are those of the domain, `max - min`; a corner many periods away is
+    /// reduced into the first one in `f64`.
+    ///
+    /// Time and memory are those of [`Plane::window`].
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for `window_min` and `window_max`; [`Error::TooLarge`] as [`Plane::window`].
+    pub fn relative_window(&self, window_min: [f64; 2], window_max: [f64; 2]) -> Result<Points<2>> {
+        let Set { domain, lattice, .. } = &self.set;
+        let window = RelativeWindow::new(domain, lattice, window_min, window_max)?;
+        self.set.require([0, 1].map(|axis| window_max[axis] - window_min[axis]))?;
+        Context::new(1)?.run(None, |job| self.layers.relative(job, &self.set, &window))
+    }
+
+    /// True if samples have ranks.
+    pub fn has_ranks(&self) -> bool {
+        matches!(self.set.radii, Radii::Progressive { .. } | Radii::Classes(_, Some(_)))
+    }
+
+    /// True if samples have classes.
+    pub fn has_classes(&self) -> bool {
+        matches!(self.set.radii, Radii::One { is_class: true, .. } | Radii::Classes(..))
+    }
+
+    /// The spacing of the lattice that all samples lie on: a power of two, the float spacing at the largest coordinate of
+    /// the domain; of a [wide](Plane::wide) plane 1/512 to 1/256 of the radius. In the units of the domain.
+    pub fn unit(&self) -> f64 {
+        self.set.lattice.unit()
+    }
+
+    /// The most samples that any window of an extent can have, for arrays that are allocated once.
+    ///
+    /// Of samples at least r apart, a rectangle holds at most 2/sqrt(3) · w h / r² + (w + h) / r + 1 (Oler 1961), about
+    /// 1.66 times as many as it has on average if it is large; of several classes the sum of these.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for an `extent` that is not finite and above 0; [`Error::TooLarge`] for more than
+    /// about 2^32 samples.
+    pub fn most_samples(&self, extent: [f64; 2]) -> Result<usize> {
+        for (axis, side) in extent.into_iter().enumerate() {
+            if !(side > 0.0 && side.is_finite()) {
+                return Err(Error::invalid("extent", format!("[{axis}] is {side}, not above 0 and finite")));
+            }
+        }
+        let [width, height] = extent;
+        let radii = match &self.set.radii {
+            Radii::One { radius, .. } | Radii::Progressive { radius, .. } => vec![*radius],
+            Radii::Classes(classes, _) => (0..classes.count()).map(|class| classes.own(class)).collect(),
+        };
+        // The largest numbers are not cast before they are refused; the factor covers rounding.
+        let most = |radius: f64| (most_within([width / radius, height / radius]) * (1.0 + 1e-12)).floor();
+        let most: f64 = radii.into_iter().map(most).sum();
+        if most > f64::from(u32::MAX) {
+            return Err(Error::too_large("extent", format!("{width} by {height} may have {most:.2e} samples")));
+        }
+        Ok(most as usize)
     }
 
     /// Passes all samples to `visit`, in the order of [`Plane::whole`], part by part, for sets that cannot or need not
@@ -156,14 +247,15 @@ impl Plane {
     /// is one part.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for a progressive order and for several classes, which do not come place by place;
-    /// [`Error::Cancelled`].
+    /// [`Error::InvalidArgument`] for a progressive order and for several classes, which do not come place by place, and
+    /// for a [wide](Plane::wide) plane; [`Error::Cancelled`].
     pub fn stream(
         &self,
         context: &Context,
         visit: impl FnMut(&[[f32; 2]]) -> ControlFlow<()>,
         progress: Option<&Progress>,
     ) -> Result<()> {
+        self.set.require_floats()?;
         match &self.layers {
             Layers::None(base) => context.run(progress, |job| base.stream(job, visit)),
             Layers::Progressive(..) => {
@@ -180,6 +272,8 @@ struct Set {
     /// The lattice; of a set of several classes with an arbitrary radius, else with that of the set.
     lattice: Lattice,
     radii: Radii,
+    /// True if lattice points are not floats.
+    is_wide: bool,
 }
 
 /// The radii of a set.
@@ -223,7 +317,7 @@ impl Set {
         match &radii {
             Radii::One { radius, .. } => {
                 given.check()?;
-                if !Tiling::is_worthwhile(&lattice, leaf_size) {
+                if !Base::is_tiled(&lattice, leaf_size) {
                     estimate(domain.extent(), *radius)?;
                 }
             }
@@ -236,7 +330,36 @@ impl Set {
                 levels.as_ref().map_or(Ok(()), |levels| levels.check(largest))?;
             }
         }
-        Ok(Self { domain, lattice, radii })
+        Ok(Self { domain, lattice, radii, is_wide: false })
+    }
+
+    /// A set whose lattice follows from its radius.
+    fn wide(options: &Options) -> Result<Self> {
+        let &Options { kind, domain, leaf_size, given, .. } = options;
+        check_leaf_size(leaf_size)?;
+        given.check()?;
+        let radius = match kind {
+            Kind::Plain(radius) => radius,
+            Kind::Progressive(..) => return Err(Error::invalid("order", "a wide plane is in no progressive order")),
+            Kind::Classes(..) | Kind::ProgressiveClasses(..) => {
+                return Err(Error::invalid("classes", "a wide plane has one radius"));
+            }
+        };
+        let lattice = Lattice::of_radius(&domain, radius)?;
+        if !Base::is_tiled(&lattice, leaf_size) {
+            let [width, height] = domain.extent();
+            let reason = format!("{width} by {height} is not tiled with radius {radius:?}: such a plane is not wide");
+            return Err(Error::invalid("domain_max", reason));
+        }
+        Ok(Self { domain, lattice, radii: Radii::One { radius, is_class: false }, is_wide: true })
+    }
+
+    /// Refuses to give absolute positions that are no floats.
+    fn require_floats(&self) -> Result<()> {
+        if !self.is_wide {
+            return Ok(());
+        }
+        Err(Error::invalid("plane", "is wide: floats cannot carry its samples, only relative windows have them"))
     }
 
     /// Refuses all samples of a domain that cannot be held.
@@ -255,13 +378,18 @@ impl Set {
     /// The part of the domain between two corners, if its samples can be held. It is bounded.
     fn window(&self, min: [f64; 2], max: [f64; 2]) -> Result<Domain> {
         let window = window_of(&self.domain, min, max)?;
+        self.require(window.extent())?;
+        Ok(window)
+    }
+
+    /// Refuses a window whose samples cannot be held.
+    fn require(&self, extent: [f64; 2]) -> Result<()> {
         match &self.radii {
             Radii::One { radius, .. } | Radii::Progressive { radius, .. } => {
-                require(estimate(window.extent(), *radius)?, BYTES_PER_SAMPLE, "radius")?;
+                require(estimate(extent, *radius)?, BYTES_PER_SAMPLE, "radius")
             }
-            Radii::Classes(classes, _) => require_classes(classes, window.extent())?,
+            Radii::Classes(classes, _) => require_classes(classes, extent),
         }
-        Ok(window)
     }
 
     /// Samples of one radius.
@@ -270,6 +398,11 @@ impl Set {
         let classes = if has_classes { vec![0; samples.len()] } else { Vec::new() };
         Points { classes, ..samples.into() }
     }
+}
+
+/// The most points at distances of at least 1 in a rectangle, by Oler's inequality (1961).
+fn most_within([width, height]: [f64; 2]) -> f64 {
+    2.0 / 3f64.sqrt() * width * height + width + height + 1.0
 }
 
 /// Refuses more samples of several classes in a rectangle than can be held.
@@ -338,21 +471,40 @@ impl Layers {
 
     /// All samples.
     fn whole(&self, job: &Job, set: &Set) -> Result<Points<2>> {
+        let position = |point| set.lattice.position(point);
         match self {
             Self::None(base) => Ok(set.in_any_order(base.whole(job)?)),
-            Self::Progressive(stack, rank) => Ok(progressive::ordered(stack.lattice(), *rank, stack.whole(job)?)),
-            Self::Classes(stack, ranks) => Ok(classes::ordered(stack.lattice(), ranks, stack.whole(job)?)),
+            Self::Progressive(stack, rank) => {
+                Ok(progressive::ordered(stack.lattice(), *rank, stack.whole(job)?, position))
+            }
+            Self::Classes(stack, ranks) => Ok(classes::ordered(ranks, stack.whole(job)?, position)),
         }
     }
 
     /// The samples in a window.
     fn window(&self, job: &Job, set: &Set, window: &Domain) -> Result<Points<2>> {
+        let position = |point| set.lattice.position(point);
         match self {
             Self::None(base) => Ok(set.in_any_order(base.window(job, window)?)),
             Self::Progressive(stack, rank) => {
-                Ok(progressive::ordered(stack.lattice(), *rank, stack.window(job, window)?))
+                Ok(progressive::ordered(stack.lattice(), *rank, stack.window(job, window)?, position))
             }
-            Self::Classes(stack, ranks) => Ok(classes::ordered(stack.lattice(), ranks, stack.window(job, window)?)),
+            Self::Classes(stack, ranks) => Ok(classes::ordered(ranks, stack.window(job, window)?, position)),
+        }
+    }
+
+    /// The samples in a window, seen from its corner.
+    fn relative(&self, job: &Job, set: &Set, window: &RelativeWindow) -> Result<Points<2>> {
+        let position = |point| window.position(&set.lattice, point);
+        match self {
+            Self::None(base) => {
+                let points = base.images(job, &set.lattice, &window.rect)?;
+                Ok(set.in_any_order(points.into_iter().map(position).collect()))
+            }
+            Self::Progressive(stack, rank) => {
+                Ok(progressive::ordered(stack.lattice(), *rank, stack.points(job, &window.rect)?, position))
+            }
+            Self::Classes(stack, ranks) => Ok(classes::ordered(ranks, stack.points(job, &window.rect)?, position)),
         }
     }
 }

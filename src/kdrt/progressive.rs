@@ -26,7 +26,7 @@ use crate::kdrt::{
     fill::{Filling, Footprints},
     options::{Options, Progressive},
     region::{Part, Placed, Region},
-    stack::{Base, Layer, Stack, images},
+    stack::{Base, Cached, Layer, Stack, images},
     tiling::{cut, is_wide},
 };
 use crate::math::{exp2, hypot, log2, pow, rounded_down};
@@ -106,15 +106,20 @@ pub fn radii(domain: &Domain, radius: f64, levels: &Progressive) -> Vec<f64> {
     ladder.down_to(ladder.step_above(longest), radius)
 }
 
-/// Puts samples in order. Those of the coarsest level have the given rank.
-pub fn ordered(lattice: &Lattice, coarsest: f64, mut samples: Vec<Sample>) -> Points<2> {
+/// Puts samples in order, at their positions. Those of the coarsest level have the given rank.
+pub fn ordered(
+    lattice: &Lattice,
+    coarsest: f64,
+    mut samples: Vec<Sample>,
+    position: impl Fn([i32; 2]) -> [f32; 2],
+) -> Points<2> {
     samples.sort_unstable_by(|a, b| {
         b.square.cmp(&a.square).then(a.point[1].cmp(&b.point[1])).then(a.point[0].cmp(&b.point[0]))
     });
     let rank = |square: i64| if square == i64::MAX { coarsest } else { lattice.length(square) };
     Points {
         ranks: samples.iter().map(|sample| rounded_down(rank(sample.square))).collect(),
-        positions: samples.iter().map(|sample| lattice.position(sample.point)).collect(),
+        positions: samples.iter().map(|sample| position(sample.point)).collect(),
         ..Points::default()
     }
 }
@@ -161,7 +166,7 @@ pub fn first(job: &Job, options: &Options, levels: &Progressive, count: usize) -
         samples.extend(level.fill(&job.part(done, next), &known, &whole)?);
         (before, done) = (finer, next);
     }
-    let mut points = ordered(&lattice, rank, samples);
+    let mut points = ordered(&lattice, rank, samples, |point| lattice.position(point));
     points.positions.truncate(count);
     points.ranks.truncate(count);
     Ok(points)
@@ -411,6 +416,12 @@ impl Level {
         let pieces = whole.images(&part.rect);
         let squares = pieces.flat_map(|(piece, _)| grid.samples_in(&piece)).map(square);
         squares.min().unwrap_or(i64::MAX)
+    }
+}
+
+impl Cached for Level {
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
     }
 }
 

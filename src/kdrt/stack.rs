@@ -11,13 +11,15 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::kdrt::{
-    conquer::capacity,
+    cache::Cache,
     region::{Part, Placed, Region},
     tiling::Tiling,
 };
 use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
 use crate::points::Domain;
 use crate::{maximal, memory};
+
+pub use crate::kdrt::cache::Cached;
 
 /// The number of samples from which on the available memory is checked: the query takes about 0.1 ms, as long as making a
 /// small window.
@@ -38,7 +40,7 @@ pub fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> R
 const TILING_SPEED: f64 = 10.0;
 
 /// A layer, which can be filled in any part of the plane.
-pub trait Layer {
+pub trait Layer: Cached {
     type Sample: Placed;
 
     /// True if a retained plane stores all samples of this layer and of those before.
@@ -65,12 +67,25 @@ pub struct Stack<L: Layer> {
     layers: Vec<L>,
     /// The number of layers that are kept, and the samples up to the last of them.
     kept: Option<(usize, Region<L::Sample>)>,
+    /// What windows made of the other layers, if the stack is kept.
+    cache: Option<Cache<L::Sample>>,
+}
+
+/// What is to be made of a layer for a part.
+struct Step<S> {
+    part: Part,
+    /// The samples of the layer in the part that were made before.
+    found: Vec<S>,
+    /// The part of the layer that is to be made, and the rectangle of it, perhaps on other images, that is wanted.
+    missing: Option<(Part, Rect)>,
+    /// The part of the layers before that is needed.
+    before: Part,
 }
 
 impl<L: Layer> Stack<L> {
     /// Layers around the samples of a base, all of which have the attributes of the given one.
     pub fn new(lattice: Lattice, base: Option<(Base, L::Sample)>, layers: Vec<L>) -> Self {
-        Self { lattice, base, layers, kept: None }
+        Self { lattice, base, layers, kept: None, cache: None }
     }
 
     /// The lattice of all layers.
@@ -86,57 +101,97 @@ impl<L: Layer> Stack<L> {
 
     /// Makes, for all windows, the layers that are stored as a whole.
     pub fn keep(&mut self, job: &Job) -> Result<()> {
-        let Some(last) = self.layers.iter().rposition(Layer::is_kept) else { return Ok(()) };
-        let whole = Part::whole(&self.lattice);
-        let samples = self.up_to(job, last + 1, &whole)?;
-        self.kept = Some((last + 1, self.layers[last].sorted(whole, &samples)));
+        if let Some(last) = self.layers.iter().rposition(Layer::is_kept) {
+            let whole = Part::whole(&self.lattice);
+            let samples = self.up_to(job, last + 1, &whole, None)?;
+            self.kept = Some((last + 1, self.layers[last].sorted(whole, &samples)));
+        }
+        self.cache = Some(Cache::new());
         Ok(())
     }
 
     /// All samples.
     pub fn whole(&self, job: &Job) -> Result<Vec<L::Sample>> {
-        self.up_to(job, self.layers.len(), &Part::whole(&self.lattice))
+        self.up_to(job, self.layers.len(), &Part::whole(&self.lattice), None)
     }
 
     /// The samples in a window of the domain.
     pub fn window(&self, job: &Job, window: &Domain) -> Result<Vec<L::Sample>> {
-        let rect = self.lattice.points_in(window);
-        if rect.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mut samples = self.up_to(job, self.layers.len(), &Part::new(&self.lattice, &rect))?;
+        let mut samples = self.points(job, &self.lattice.points_in(window))?;
         samples.retain(|sample| window.contains(self.lattice.position(sample.point())));
         Ok(samples)
     }
 
-    /// The samples of the base and of the first `count` layers in a part.
-    fn up_to(&self, job: &Job, count: usize, part: &Part) -> Result<Vec<L::Sample>> {
-        // From the last layer to the first, the part of each that is needed.
-        let layers = &self.layers[self.kept.as_ref().map_or(0, |(kept, _)| *kept)..count];
-        let mut parts = vec![*part];
-        for layer in layers.iter().rev() {
-            parts.push(layer.around(&parts[parts.len() - 1]));
+    /// The samples in a rectangle of lattice points; on a torus of its images, at most a period wide and high.
+    pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<L::Sample>> {
+        if rect.is_empty() {
+            return Ok(Vec::new());
         }
-        parts.reverse();
+        let part = Part::new(&self.lattice, rect);
+        let expected = self.layers.last().map_or(0.0, |layer| layer.expected(&part));
+        let cache = self.cache.as_ref().filter(|cache| cache.is_for(expected));
+        let samples = self.up_to(job, self.layers.len(), &part, cache)?;
+        if part.rect == *rect {
+            return Ok(samples);
+        }
+        let mut images = Vec::with_capacity(samples.len());
+        add_images(&mut images, &samples, &part, rect);
+        Ok(images)
+    }
+
+    /// The samples of the base and of the first `count` layers in a part.
+    fn up_to(&self, job: &Job, count: usize, part: &Part, cache: Option<&Cache<L::Sample>>) -> Result<Vec<L::Sample>> {
+        // From the last layer to the first, the part of each that is needed.
+        let kept = self.kept.as_ref().map_or(0, |(kept, _)| *kept);
+        let mut steps = Vec::with_capacity(count - kept);
+        let mut part = *part;
+        for number in (kept..count).rev() {
+            let step = self.step(number, &part, cache);
+            part = step.before;
+            steps.push((number, step));
+        }
 
         // From the first to the last, each in its part.
-        let base = self.base.as_ref().map_or(0.0, |(base, _)| base.expected(&parts[0].rect) / TILING_SPEED);
-        let costs: Vec<f64> = layers.iter().zip(&parts[1..]).map(|(layer, part)| 1.0 + layer.expected(part)).collect();
-        let total = 1.0 + base + costs.iter().sum::<f64>();
+        let base = self.base.as_ref().map_or(0.0, |(base, _)| base.expected(&part.rect) / TILING_SPEED);
+        let cost = |number: usize, step: &Step<L::Sample>| {
+            1.0 + step.missing.as_ref().map_or(0.0, |(missing, _)| self.layers[number].expected(missing))
+        };
+        let total = 1.0 + base + steps.iter().map(|(number, step)| cost(*number, step)).sum::<f64>();
         let mut samples = match &self.kept {
-            Some((_, kept)) => kept.samples_of(&parts[0]),
-            None => self.base_in(&job.part(0.0, base / total), &parts[0])?,
+            Some((_, kept)) => kept.samples_of(&part),
+            None => self.base_in(&job.part(0.0, base / total), &part)?,
         };
         let mut done = base;
-        for ((layer, parts), cost) in layers.iter().zip(parts.windows(2)).zip(costs) {
-            let job = job.part(done / total, (done + cost) / total);
-            let before = layer.sorted(parts[0], &samples);
-            let filled = layer.fill(&job, &before, &parts[1])?;
-            samples = before.samples_of(&parts[1]);
-            samples.extend(filled);
-            done += cost;
+        for (number, step) in steps.into_iter().rev() {
+            let next = done + cost(number, &step);
+            let layer = &self.layers[number];
+            if let Some((missing, wanted)) = &step.missing {
+                let before = layer.sorted(step.before, &samples);
+                let made = layer.fill(&job.part(done / total, next / total), &before, missing)?;
+                samples = before.samples_of(&step.part);
+                if let (Some(cache), Some(blocks)) = (cache, layer.blocks()) {
+                    cache.add(number, blocks, missing, &made);
+                }
+                add_images(&mut samples, &made, missing, wanted);
+            }
+            samples.extend(step.found);
+            done = next;
         }
         Ok(samples)
+    }
+
+    /// What a part of a layer needs: of a layer that is made by blocks, those that are not cached.
+    fn step(&self, number: usize, part: &Part, cache: Option<&Cache<L::Sample>>) -> Step<L::Sample> {
+        let layer = &self.layers[number];
+        let Some((cache, blocks)) = cache.zip(layer.blocks()) else {
+            let missing = Some((*part, part.rect));
+            return Step { part: *part, found: Vec::new(), missing, before: layer.around(part) };
+        };
+        let (found, missing) = cache.look_up(number, blocks, &part.rect);
+        let Some(rect) = missing else { return Step { part: *part, found, missing: None, before: *part } };
+        let missing = Part::new(&self.lattice, &rect);
+        let before = Part::new(&self.lattice, &layer.around(&missing).rect.hull(&part.rect));
+        Step { part: *part, found, missing: Some((missing, rect.intersection(&part.rect))), before }
     }
 
     /// The samples of the base in a part.
@@ -148,15 +203,20 @@ impl<L: Layer> Stack<L> {
     }
 }
 
+/// Adds those images of the samples of a part that lie in a rectangle.
+fn add_images<S: Placed>(samples: &mut Vec<S>, made: &[S], part: &Part, rect: &Rect) {
+    for (piece, [along, up]) in part.images(rect) {
+        samples.extend(made.iter().filter(|sample| piece.contains(sample.point())).map(|sample| {
+            let [x, y] = sample.point();
+            sample.moved_to([x + along, y + up])
+        }));
+    }
+}
+
 /// The samples of a base in a part; on a torus their images. All have the attributes of the given one.
 pub fn images<S: Placed>(job: &Job, lattice: &Lattice, base: &Base, sample: S, part: &Part) -> Result<Vec<S>> {
-    let mut samples = Vec::new();
-    let pieces: Vec<_> = Part::whole(lattice).images(&part.rect).collect();
-    for (piece, [along, up]) in pieces.into_iter().filter(|(piece, _)| !piece.is_empty()) {
-        let points = base.points(job, &piece)?;
-        samples.extend(points.into_iter().map(|[x, y]| sample.moved_to([x + along, y + up])));
-    }
-    Ok(samples)
+    let points = base.images(job, lattice, &part.rect)?;
+    Ok(points.into_iter().map(|point| sample.moved_to(point)).collect())
 }
 
 // # The base
@@ -211,11 +271,7 @@ impl Base {
     /// All samples.
     pub fn whole(&self, job: &Job) -> Result<Vec<[f32; 2]>> {
         match self {
-            Self::Tiled(tiling) => {
-                let windows = tiling.windows();
-                let expected = capacity(tiling.lattice().expected_samples());
-                job.concat_about(expected, windows.len(), |i| tiling.window(&windows[i]))
-            }
+            Self::Tiled(tiling) => tiling.whole(job),
             Self::Whole(whole) => Ok(whole.samples.clone()),
         }
     }
@@ -228,6 +284,11 @@ impl Base {
         }
     }
 
+    /// True if the set of a lattice is tiled, not made as a whole.
+    pub fn is_tiled(lattice: &Lattice, leaf_size: f64) -> bool {
+        Tiling::is_worthwhile(lattice, leaf_size)
+    }
+
     /// The samples in a rectangle of the domain, as lattice points.
     pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<[i32; 2]>> {
         match self {
@@ -237,6 +298,15 @@ impl Base {
                 Ok(points.filter(|&point| rect.contains(point)).collect())
             }
         }
+    }
+
+    /// The samples in a rectangle of lattice points; on a torus of its images.
+    pub fn images(&self, job: &Job, lattice: &Lattice, rect: &Rect) -> Result<Vec<[i32; 2]>> {
+        let (whole, mut images) = (Part::whole(lattice), Vec::new());
+        for (piece, [along, up]) in whole.images(rect).filter(|(piece, _)| !piece.is_empty()) {
+            images.extend(self.points(job, &piece)?.into_iter().map(|[x, y]| [x + along, y + up]));
+        }
+        Ok(images)
     }
 
     /// Hands all samples to `visit`, part by part.

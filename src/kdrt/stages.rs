@@ -136,7 +136,7 @@ fn measure_window(tiling: &Tiling, window: &Rect, stages: &mut Stages) -> Vec<[f
     let mut clip = Duration::ZERO;
     timed(&mut clip, || black_box(tiling.clip(&known, &leaves)));
     let mut merge = Duration::ZERO;
-    let merged = timed(&mut merge, || tiling.merge(&known, window, &leaves));
+    let merged = timed(&mut merge, || tiling.merge(tiling.lattice(), &known, window, &leaves));
     stages.clip += clip;
     stages.eliminate += merge.saturating_sub(clip);
 

@@ -112,9 +112,16 @@ impl Tiling {
         cut(&Rect { min: [0; 2], max: self.blocks.counts() }, side)
     }
 
+    /// All samples, in parallel.
+    pub fn whole(&self, job: &Job) -> Result<Vec<[f32; 2]>> {
+        let windows = self.windows();
+        let expected = capacity(self.lattice.expected_samples());
+        job.concat_about(expected, windows.len(), |i| self.window(&windows[i]))
+    }
+
     /// The samples in a rectangle of fill blocks.
     pub fn window(&self, window: &Rect) -> Vec<[f32; 2]> {
-        self.window_within(&self.surroundings(window), window)
+        self.window_on(&self.lattice, window)
     }
 
     /// The samples in a part of the domain, in the order of all windows one after the other.
@@ -151,6 +158,7 @@ impl Tiling {
     }
 
     /// The lattice of the domain.
+    #[cfg(feature = "stages")]
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
@@ -164,24 +172,31 @@ impl Tiling {
     pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<[i32; 2]>> {
         let windows = cut(&self.blocks.holding(rect), WINDOW_BLOCKS);
         job.flat_map(windows.len(), |i| {
-            let samples = self.window(&windows[i]).into_iter().map(|sample| self.lattice.point(sample));
+            // The lattice of a wide plane is finer than floats: those of a window suffice.
+            let near = self.lattice.seen_from(self.blocks.rect(&windows[i]).min);
+            let samples = self.window_on(&near, &windows[i]).into_iter().map(|sample| near.point(sample));
             samples.filter(|&point| rect.contains(point)).collect()
         })
     }
 
+    /// A window, at the coordinates of a lattice of the same points.
+    fn window_on(&self, lattice: &Lattice, window: &Rect) -> Vec<[f32; 2]> {
+        self.window_within(lattice, &self.surroundings(window), window)
+    }
+
     /// A window, given its surroundings.
-    fn window_within(&self, known: &Rect, window: &Rect) -> Vec<[f32; 2]> {
+    fn window_within(&self, lattice: &Lattice, known: &Rect, window: &Rect) -> Vec<[f32; 2]> {
         let leaves = self.leaves(known);
-        let merged = self.merge(known, window, &leaves);
+        let merged = self.merge(lattice, known, window, &leaves);
         self.fill(window, &leaves, merged)
     }
 
-    /// Clips the leaves and eliminates conflicts.
-    pub fn merge(&self, known: &Rect, window: &Rect, leaves: &[Leaf]) -> Merged<'_> {
+    /// Clips the leaves and eliminates conflicts. The samples get the coordinates of a lattice of the same points.
+    pub fn merge<'a>(&self, lattice: &'a Lattice, known: &Rect, window: &Rect, leaves: &[Leaf]) -> Merged<'a> {
         let separation = self.lattice.separation;
         let mut grid = CellGrid::new(&self.axes, known, separation);
         grid.set_obstacles(self.around.near(known));
-        let mut output = Output::new(&self.lattice, self.blocks.rect(window));
+        let mut output = Output::new(lattice, self.blocks.rect(window));
         let eliminated = merge(&mut grid, &self.pattern, leaves, known, separation.reach, &mut output);
         Merged { grid, eliminated, output }
     }
@@ -361,7 +376,7 @@ mod tests {
                 let known = tiling.surroundings(&window);
                 let leaves = tiling.leaves(&known);
                 let filled = |vectors| {
-                    let mut merged = tiling.merge(&known, &window, &leaves);
+                    let mut merged = tiling.merge(&tiling.lattice, &known, &window, &leaves);
                     merged.grid.set_vectors(vectors);
                     tiling.fill(&window, &leaves, merged)
                 };
@@ -412,7 +427,7 @@ mod tests {
                 let inside = |sample: &&[f32; 2]| (0..2).all(|axis| (first[axis]..=last[axis]).contains(&sample[axis]));
                 let expected: Vec<_> = whole.iter().filter(inside).copied().collect();
                 let is_right = |known: &Rect| {
-                    let mut found = tiling.window_within(known, &block);
+                    let mut found = tiling.window_within(&tiling.lattice, known, &block);
                     found.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
                     found == expected
                 };

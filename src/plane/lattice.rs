@@ -21,6 +21,15 @@ use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, check_radius, check_resol
 /// The largest number of samples of one call.
 const MAX_SAMPLES: f64 = u32::MAX as f64;
 
+/// A lattice whose unit follows from the radius has less than so many units in it, and at least half as many.
+const FINEST: f64 = 512.0;
+
+/// The most units of such a lattice along an axis: differences of coordinates, to images too, are below 2^31.
+const WIDEST: f64 = (1 << 29) as f64;
+
+/// The largest coordinate of such a lattice, in units: sums of coordinates are exact in `f64`.
+const FARTHEST: f64 = (1u64 << 50) as f64;
+
 /// The least distance of two lattice points for a radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Separation {
@@ -79,14 +88,51 @@ impl Lattice {
         check_radius(radius)?;
         let unit = float_spacing(domain.min.iter().chain(&domain.max));
         check_resolution("radius", radius, unit, "the domain's largest coordinate")?;
+        Self::with_unit(domain, unit).map(|lattice| lattice.with_radius(radius))
+    }
 
+    /// The lattice of a `domain` that need not lie on floats: its unit follows from the radius, which is 256 to 512
+    /// units. So it is up to 2^29 units wide and high, a million radii and more, wherever it lies. A torus has an integer
+    /// period as in [`Lattice::of_any_size`].
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a domain or radius out of range, and for a domain that is wider or higher or so far
+    /// from 0 that its coordinates are not exact in `f64`.
+    pub fn of_radius(domain: &Domain, radius: f64) -> Result<Self> {
+        domain.check()?;
+        check_radius(radius)?;
+        let mut unit = float_spacing([radius].iter());
+        while radius / unit >= FINEST {
+            unit *= 2.0;
+        }
+        check_resolution("radius", radius, unit, "0")?;
+        for (axis, side) in domain.extent().into_iter().enumerate() {
+            let (most, farthest) = (WIDEST * unit, FARTHEST * unit);
+            if side > most || domain.min[axis].abs().max(domain.max[axis].abs()) > farthest {
+                let reason = format!(
+                    "[{axis}] is {}, above domain_min {}: with radius {radius:?} the sides are at most {most:?}, and the \
+                     coordinates {farthest:?}",
+                    domain.max[axis], domain.min[axis]
+                );
+                return Err(Error::invalid("domain_max", reason));
+            }
+        }
+        Self::with_unit(domain, unit).map(|lattice| lattice.with_radius(radius))
+    }
+
+    /// The lattice of the multiples of a unit, with an arbitrary radius.
+    fn with_unit(domain: &Domain, unit: f64) -> Result<Self> {
         let (mut origin, mut size) = ([0.0; 2], [0; 2]);
         for axis in 0..2 {
             (origin[axis], size[axis]) = axis_points(domain, axis, unit)?;
         }
-        let lattice =
-            Self { unit, origin, size, boundary: domain.boundary, radius: 0.0, separation: Separation::new(0.0) };
-        Ok(lattice.with_radius(radius))
+        Ok(Self { unit, origin, size, boundary: domain.boundary, radius: 0.0, separation: Separation::new(0.0) })
+    }
+
+    /// The same lattice points with coordinates that begin at one of them, so that those of the first 2^24 from there on
+    /// are floats.
+    pub fn seen_from(&self, point: [i32; 2]) -> Self {
+        Self { origin: point.map(|x| -f64::from(x) * self.unit), ..self.clone() }
     }
 
     /// The same lattice with another radius, in the units of the domain.
@@ -150,8 +196,26 @@ impl Lattice {
 
     /// The coordinates of a lattice point of the domain: exact.
     pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
-        let along = |axis: usize| (self.origin[axis] + f64::from(point[axis]) * self.unit) as f32;
+        let along = |axis: usize| self.coordinate(axis, point[axis]) as f32;
         [along(0), along(1)]
+    }
+
+    /// One coordinate of the lattice points with this number along an axis: exact.
+    pub fn coordinate(&self, axis: usize, point: i32) -> f64 {
+        self.origin[axis] + f64::from(point) * self.unit
+    }
+
+    /// The number of the first lattice point along an axis that is not below a coordinate; `size` if there is none.
+    pub fn first_from(&self, axis: usize, x: f64) -> i32 {
+        let mut point = ((x - self.origin[axis]) / self.unit).ceil().clamp(0.0, f64::from(self.size[axis])) as i32;
+        // The quotient is rounded.
+        while point > 0 && self.coordinate(axis, point - 1) >= x {
+            point -= 1;
+        }
+        while point < self.size[axis] && self.coordinate(axis, point) < x {
+            point += 1;
+        }
+        point
     }
 
     /// The length of a unit.

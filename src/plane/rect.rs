@@ -19,6 +19,14 @@ impl Rect {
         }
     }
 
+    /// The smallest rectangle that holds both.
+    pub fn hull(&self, other: &Self) -> Self {
+        Self {
+            min: [self.min[0].min(other.min[0]), self.min[1].min(other.min[1])],
+            max: [self.max[0].max(other.max[0]), self.max[1].max(other.max[1])],
+        }
+    }
+
     pub fn is_empty(&self) -> bool {
         (0..2).any(|axis| self.min[axis] >= self.max[axis])
     }

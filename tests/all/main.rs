@@ -33,6 +33,7 @@ mod kdrt_classes;
 mod kdrt_count;
 mod kdrt_merge;
 mod kdrt_merge_arguments;
+mod kdrt_relative;
 mod kdrt_window;
 mod maximal;
 mod mesh;

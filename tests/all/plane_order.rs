@@ -1,6 +1,7 @@
 //! Progressive order in the plane: what holds for every prefix, from the definitions.
 
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 use azulejo::analysis::spectrum::{Periodogram, periodogram};
 use azulejo::kdrt::{
@@ -9,7 +10,7 @@ use azulejo::kdrt::{
 use azulejo::{Boundary, Context, Domain, Error, Order, Points};
 
 use crate::common::sets::Random;
-use crate::common::windows::{Rect, random_window};
+use crate::common::windows::{Rect, between, random_window};
 use crate::common::{BOUNDARIES, check, distance, domain, find_conflict, find_gap, float_spacing, hard_domains};
 
 fn progressive(radius: f64, levels: Progressive, domain: Domain, seed: u64) -> Options<'static> {
@@ -227,6 +228,53 @@ fn windows_of_a_large_plane_are_parts_of_the_whole() {
         let options = progressive(0.002, quotient(1.5), Domain::unit(boundary), 11);
         check_windows(&mut random, &options, 3);
     }
+}
+
+/// Threads walk over one plane, which keeps what their windows made: on straight lines, back and forth, and far away.
+#[test]
+fn windows_do_not_depend_on_those_before() {
+    for boundary in BOUNDARIES {
+        let radius = 0.0025;
+        let options = progressive(radius, quotient(1.4), Domain::unit(boundary), 12);
+        let (whole, plane) = (ranked(&options), Plane::new(&Context::new(2).unwrap(), &options, None).unwrap());
+        std::thread::scope(|scope| {
+            for seed in 0..3 {
+                let (whole, plane) = (&whole, &plane);
+                scope.spawn(move || {
+                    let mut random = Random::new(seed);
+                    let side = 20.0 * radius;
+                    let mut corner = [0.0; 2];
+                    for step in 0..60 {
+                        corner = match step % 12 {
+                            0 => corner.map(|_| between(&mut random, 0.0, 1.0 - side)),
+                            turn => [corner[0] + if turn < 8 { side } else { -0.6 * side }, corner[1] + 0.1 * side],
+                        };
+                        let corner = corner.map(|x| x.clamp(0.0, 1.0 - side));
+                        let rect = (corner, corner.map(|x| x + side));
+                        let window = plane.window(rect.0, rect.1).unwrap();
+                        assert!((window.positions, window.ranks) == part_of(whole, rect), "{boundary:?} {rect:?}");
+                    }
+                });
+            }
+        });
+    }
+}
+
+/// The first window of a region makes its wide surroundings in every level; those after it need not.
+#[test]
+fn a_window_next_to_another_costs_little() {
+    let radius = 1e-4;
+    let options = progressive(radius, Progressive::new(), Domain::unit(Boundary::Periodic), 13);
+    let plane = Plane::new(&Context::new(2).unwrap(), &options, None).unwrap();
+    let mut seconds = [0, 1, 1, 0].map(|step| {
+        let min = [0.4 + f64::from(step) * 30.0 * radius, 0.7];
+        let start = Instant::now();
+        assert!(plane.window(min, min.map(|x| x + 30.0 * radius)).unwrap().len() > 500);
+        start.elapsed().as_secs_f64()
+    });
+    assert!(seconds[1] < seconds[0] / 4.0, "{seconds:?}");
+    seconds[2..].sort_by(f64::total_cmp);
+    assert!(seconds[2] < seconds[0] / 50.0, "{seconds:?}");
 }
 
 #[test]

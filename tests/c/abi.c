@@ -362,8 +362,15 @@ static void signatures(void) {
         azulejo_kdrt_sample_window;
     azulejo_status (*kdrt_create)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_kdrt **) =
         azulejo_kdrt_create;
+    azulejo_status (*kdrt_create_wide)(const azulejo_context *, const azulejo_kdrt_options *, azulejo_kdrt **) =
+        azulejo_kdrt_create_wide;
     azulejo_status (*kdrt_window)(const azulejo_kdrt *, const double *, const double *, azulejo_points **) =
         azulejo_kdrt_window;
+    azulejo_status (*kdrt_window_into)(const azulejo_kdrt *, const double *, const double *, float *, float *, uint32_t *,
+                                       size_t, size_t *) = azulejo_kdrt_window_into;
+    azulejo_status (*kdrt_window_capacity)(const azulejo_kdrt *, const double *, size_t *) =
+        azulejo_kdrt_window_capacity;
+    double (*kdrt_unit)(const azulejo_kdrt *) = azulejo_kdrt_unit;
     void (*kdrt_free)(azulejo_kdrt *) = azulejo_kdrt_free;
     azulejo_status (*kdrt_stream)(const azulejo_context *, const azulejo_kdrt_options *,
                                   uint32_t (*)(void *, const float *, size_t), void *, azulejo_kdrt_report *) =
@@ -431,6 +438,7 @@ static void signatures(void) {
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
+    CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);
 }
 

@@ -282,6 +282,26 @@ void windows() {
     CHECK(std::equal(expected.begin(), expected.end(), same.positions().begin()));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "window_max", [&] { moved.window(middle, middle); }));
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "plane", [&] { plane.window(middle, options.domain_max); }));
+    {
+        // The same samples seen from the corner, wherever the window lies, in arrays of the host.
+        const double extent[] = {1 - middle[0], 1 - middle[1]}, far[] = {middle[0], middle[1] - 1};
+        std::vector<float> positions(2 * moved.window_capacity(extent), -1.0f), ranks(1);
+        CHECK(moved.window_into(far, {1, 0}, positions) == same.size());
+        const auto least = [](const auto &all, std::size_t count, double from) {
+            double sum = 0;
+            for (std::size_t i = 0; i < count; i++) sum += all[2 * i] - from;
+            return sum;
+        };
+        CHECK(std::abs(least(positions, same.size(), 0) - least(same.positions(), same.size(), middle[0])) < 0.01);
+        CHECK(positions[2 * same.size()] == -1.0f && moved.unit() == 0x1p-24);
+        std::size_t count = 0;
+        CHECK(!moved.try_window_into(far, {1, 0}, {positions.data(), 8}, count).ok() && count == same.size());
+        CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "ranks: fewer than",
+                     [&] { moved.window_into(far, {1, 0}, positions, ranks); }));
+        CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "capacity: 4 is below",
+                     [&] { moved.window_into(far, {1, 0}, {positions.data(), 8}); }));
+        CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "extent", [&] { moved.window_capacity({0, 1}); }));
+    }
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius", [&] { azulejo::Kdrt(context, {}); }));
     options.set_progress([](double done) -> bool { throw done; });
     try {

@@ -19,8 +19,8 @@ use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
 
-/// Options of azulejo_kdrt_sample, _sample_window, _stream and _create, and with classes of
-/// azulejo_kdrt_sample_classes and _create_classes.
+/// Options of azulejo_kdrt_sample, _sample_window, _stream, _create and _create_wide, and with
+/// classes of azulejo_kdrt_sample_classes and _create_classes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_options {
@@ -54,12 +54,12 @@ pub struct azulejo_kdrt_options {
     /// well spread, and azulejo_points_ranks says how well. Must be any for streams.
     pub order: u32,
     /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8). Windows of
-    /// large domains are several times as fast with 2^(1/4).
+    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8). Scattered
+    /// windows of large domains are several times as fast with 2^(1/4).
     pub quotient: f64,
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
-    /// coarse as the domain, so that the first level has one sample. Windows of large domains are
-    /// faster with a shorter one, such as 16 radii.
+    /// coarse as the domain, so that the first level has one sample. Scattered windows of large
+    /// domains are faster with a shorter one, such as 16 radii.
     pub coarsest: f64,
     /// Samples that stand already, x y each, anywhere in the plane; on a torus they wrap. Default
     /// NULL: none. Must be none where there is a `count`. They are not moved, dropped, compared

@@ -2,13 +2,13 @@
 
 use azulejo_core::kdrt::Plane;
 
-use crate::boundary::{Out, pair};
+use crate::boundary::{self, Out, check_size, pair, write};
 use crate::context::azulejo_context;
 use crate::growing;
 use crate::handles::{self, handle};
 use crate::kdrt::azulejo_kdrt_options;
 use crate::points::azulejo_points;
-use crate::status::azulejo_status;
+use crate::status::{Failure, azulejo_status};
 
 /// A plane: a set of azulejo_kdrt_sample or azulejo_kdrt_sample_classes of which any window can be
 /// made at any time.
@@ -27,7 +27,8 @@ handle!(azulejo_kdrt);
 /// and 1 byte for each radius of the sides of the domain, however many samples the domain has, up
 /// to about 10^11. A domain that is not tiled (see azulejo_kdrt_sample) is made as a whole and
 /// kept, in 8 bytes per sample; in progressive order levels of up to 65,536 samples are, unless the
-/// coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB.
+/// coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB. In progressive order and
+/// of several classes a plane also keeps what windows make, in up to 16 MB.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create(
     context: *const azulejo_context,
@@ -47,6 +48,36 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
     })
 }
 
+/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. Floats
+/// cannot carry so many samples, so that they are only given by azulejo_kdrt_window_into; other
+/// calls refuse the plane.
+///
+/// options: with a radius, in any order. The samples are others than those of azulejo_kdrt_create
+/// with the same options. They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to 1/256
+/// of the radius, and every place is within the radius + 3 of these of a sample. The domain is at
+/// most 2^29 of them, at least 1,048,576 radii, wide and high, and large enough to be tiled (see
+/// azulejo_kdrt_sample).
+///
+/// O(samples of the pattern) time, and the memory of azulejo_kdrt_create.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_create_wide(
+    context: *const azulejo_context,
+    options: *const azulejo_kdrt_options,
+    out: *mut *mut azulejo_kdrt,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let options = unsafe { growing::read("options", options) }?;
+        let request = options.by_radius_only()?;
+        let plane = context.run(options.watch(), |context, progress| Plane::wide(context, &request, progress))?;
+        Ok(azulejo_kdrt { plane })
+    })
+}
+
 /// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
 /// order as azulejo_kdrt_sample_window and the whole set, with classes where it has some. All work
 /// happens on the calling thread, and other threads may make windows of the same plane meanwhile.
@@ -56,6 +87,8 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 ///
 /// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
 /// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has.
+/// The plane keeps these, up to 16 MB: the first window in a region takes long, those near it do
+/// not. The samples do not depend on what is kept.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window(
     plane: *const azulejo_kdrt,
@@ -72,6 +105,126 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
         let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
         Ok(azulejo_points::plane(plane.window(min, max)?))
     })
+}
+
+/// Writes the samples of a window into the caller's arrays, relative to its lower corner. The
+/// window of a periodic plane may lie anywhere and cross seams: so the plane goes on without end.
+///
+/// Positions are differences to window_min, rounded down to floats: at least 0, and at most the
+/// extent of the window. They are exact, and so at least the radius apart, if window_min is a
+/// multiple of azulejo_kdrt_unit and the window less than 2^24 units wide and high; otherwise two
+/// samples may be closer than the radius by the spacing of floats at the extent of the window.
+/// Windows that share an edge, given by the same number, share no sample and lose none, and window
+/// corners far from 0 cost no precision of the positions.
+///
+/// window_min, window_max: the corners, x y each. Periodic: at most 2^32 periods from the domain,
+/// at most one period apart. Bounded: in the domain.
+///
+/// positions: receives x y of each sample. May be NULL if `capacity` is 0.
+///
+/// ranks, classes: receive those of each sample; NULL if they are not wanted, or not there.
+///
+/// capacity: the number of samples that each array has room for. azulejo_kdrt_window_capacity has a
+/// number that suffices for all windows of a size.
+///
+/// count: receives the number of samples of the window. If it is above `capacity`, the call fails
+/// and writes nothing else.
+///
+/// Work, memory and threads are those of azulejo_kdrt_window. Without levels and classes the order
+/// is arbitrary, but the same in every call.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `capacity` below the number of samples, and
+/// for `ranks` or `classes` of a plane that has none.
+#[expect(clippy::too_many_arguments, reason = "three arrays of one capacity")]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_window_into(
+    plane: *const azulejo_kdrt,
+    window_min: *const f64,
+    window_max: *const f64,
+    positions: *mut f32,
+    ranks: *mut f32,
+    classes: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let count = unsafe { Out::new(count) };
+    boundary::call(|| {
+        count.check("count")?;
+        // SAFETY: handed on from the caller.
+        let plane = &unsafe { handles::get("plane", plane) }?.plane;
+        // SAFETY: handed on from the caller.
+        let (min, max) = unsafe { (pair("window_min", window_min)?, pair("window_max", window_max)?) };
+        check_size("capacity", capacity, capacity.checked_mul(size_of::<[f32; 2]>()))?;
+        if capacity > 0 {
+            boundary::check_pointer("positions", positions)?;
+        }
+        wanted("ranks", ranks, plane.has_ranks())?;
+        wanted("classes", classes, plane.has_classes())?;
+        let samples = plane.relative_window(min, max)?;
+        count.write(samples.len());
+        if samples.len() > capacity {
+            let reason = format!("{capacity} is below {}, the number of samples of the window", samples.len());
+            return Err(Failure::invalid("capacity", reason));
+        }
+        // SAFETY: the caller's arrays have room for `capacity` samples, and those that are NULL are not written to.
+        unsafe {
+            write(positions, samples.positions.as_flattened());
+            if !ranks.is_null() {
+                write(ranks, &samples.ranks);
+            }
+            if !classes.is_null() {
+                write(classes, &samples.classes);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Refuses an array for what samples do not have.
+fn wanted<T>(argument: &str, array: *const T, are_there: bool) -> Result<(), Failure> {
+    if array.is_null() {
+        return Ok(());
+    }
+    boundary::check_pointer(argument, array)?;
+    if are_there {
+        Ok(())
+    } else {
+        Err(Failure::invalid(argument, format!("the plane has no {argument}; leave it NULL")))
+    }
+}
+
+/// The most samples that a window of a plane can have, so that one array suffices for all windows
+/// of a size.
+///
+/// Of samples at least r apart a rectangle has at most 2 / sqrt(3) * w * h / r^2 + (w + h) / r + 1
+/// (Oler 1961), 1.66 times as many as large windows have on average; of several classes the sum of
+/// these.
+///
+/// extent: the width and height of the window, above 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_window_capacity(
+    plane: *const azulejo_kdrt,
+    extent: *const f64,
+    out: *mut usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    boundary::answer(out, || {
+        // SAFETY: handed on from the caller.
+        let plane = &unsafe { handles::get("plane", plane) }?.plane;
+        // SAFETY: handed on from the caller.
+        Ok(plane.most_samples(unsafe { pair("extent", extent) }?)?)
+    })
+}
+
+/// The spacing of the lattice on which all samples of a plane lie: a power of two, the spacing of
+/// floats at the largest coordinate of the domain; of a wide plane 1/512 to 1/256 of the radius. 0
+/// for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_kdrt_unit(plane: *const azulejo_kdrt) -> f64 {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::peek("plane", plane) }.map_or(0.0, |plane| plane.plane.unit())
 }
 
 /// Frees a plane. NULL is allowed.

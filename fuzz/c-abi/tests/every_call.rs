@@ -185,7 +185,21 @@ fn planes() {
         }));
         let plane = made(|out| azulejo_kdrt_create(context.get(), &options, out));
         read_and_free(made(|out| azulejo_kdrt_window(plane.get(), low, high, out)));
+        let (mut count, mut room, mut positions) = (0, 0, [0f32; 64]);
+        assert_eq!(azulejo_kdrt_window_capacity(plane.get(), high, &raw mut room), AZULEJO_OK);
+        assert!(room <= 32 && azulejo_kdrt_unit(plane.get()) > 0.0);
+        let mut into = |capacity, count| {
+            let positions = positions.as_mut_ptr();
+            azulejo_kdrt_window_into(plane.get(), low, high, positions, null_mut(), null_mut(), capacity, count)
+        };
+        assert_eq!(into(room, &raw mut count), AZULEJO_OK);
+        assert!(count <= room);
+        let refused = if count == 0 { AZULEJO_OK } else { AZULEJO_ERROR_INVALID_ARGUMENT };
+        assert_eq!(into(0, &raw mut count), refused);
         drop(plane);
+        let mut wide = null_mut();
+        let status = azulejo_kdrt_create_wide(context.get(), &options, &raw mut wide);
+        assert_eq!(status, AZULEJO_ERROR_INVALID_ARGUMENT, "one that is not tiled");
         let (mut matrix, mut classes) = ([0f64; 4], defaults(azulejo_classes_init));
         assert_eq!(azulejo_classes_radii([0.45f64, 0.3].as_ptr(), 2, 1.0, matrix.as_mut_ptr()), AZULEJO_OK);
         (classes.count, classes.radii) = (2, matrix.as_ptr());

@@ -24,7 +24,7 @@ use crate::kdrt::{
     options::{Options, Progressive},
     progressive,
     region::{Part, Placed, Region},
-    stack::{Base, Layer, Stack},
+    stack::{Base, Cached, Layer, Stack},
     tiling::Tiling,
 };
 use crate::math::rounded_down;
@@ -90,8 +90,8 @@ fn group_seed(seed: u64, number: usize) -> u64 {
     hash(seed, Draw::Group, &[number as u64])
 }
 
-/// Puts samples in order: in progressive order those of a level at random.
-pub fn ordered(lattice: &Lattice, ranks: &[f32], mut samples: Vec<Sample>) -> Points<2> {
+/// Puts samples in order, at their positions: in progressive order those of a level at random.
+pub fn ordered(ranks: &[f32], mut samples: Vec<Sample>, position: impl Fn([i32; 2]) -> [f32; 2]) -> Points<2> {
     let shuffled = |[x, y]: [i32; 2]| {
         if ranks.is_empty() { 0 } else { hash(0, Draw::Level, &[x as u64, y as u64]) }
     };
@@ -99,7 +99,7 @@ pub fn ordered(lattice: &Lattice, ranks: &[f32], mut samples: Vec<Sample>) -> Po
     samples.sort_unstable_by_key(key);
     let ranked = if ranks.is_empty() { &[][..] } else { &samples[..] };
     Points {
-        positions: samples.iter().map(|sample| lattice.position(sample.point)).collect(),
+        positions: samples.iter().map(|sample| position(sample.point)).collect(),
         classes: samples.iter().map(|sample| sample.class.into()).collect(),
         ranks: ranked.iter().map(|sample| ranks[usize::from(sample.layer)]).collect(),
         ..Points::default()
@@ -363,6 +363,12 @@ impl Work for FillBlock<'_> {
         }
         let rng = &mut Rng::at(blocks.rng(place).bits(), Draw::Darts, &[pass as u64]);
         group.throw(filling, rng, pass, &[[0, 0]])
+    }
+}
+
+impl Cached for Group {
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
     }
 }
 
