@@ -31,7 +31,7 @@ handle!(azulejo_kdrt);
 /// azulejo_kdrt_sample) is made as a whole and kept, in 8 bytes per sample. In progressive order
 /// the plane also takes 16 KB per level and, unless its coarsest level is tiled, makes and keeps
 /// the levels that have up to 65,536 samples in the whole domain, in 16 bytes per sample. In
-/// progressive order and of several classes it also keeps what windows make, in up to 16 MB.
+/// progressive order and of several classes it also keeps what windows make, in up to 32 MB.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT as azulejo_kdrt_sample, so for more samples than floats
 /// can carry, about 10^11; AZULEJO_ERROR_TOO_LARGE for a domain that is not tiled;
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn azulejo_kdrt_create_wide(
 ///
 /// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
 /// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has for
-/// it. The plane keeps these, up to 16 MB, for the windows that follow: the first window in a
+/// it. The plane keeps these, up to 32 MB, for the windows that follow: the first window in a
 /// region takes long, those near it do not. The samples do not depend on what is kept.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more in the
