@@ -155,7 +155,6 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, for `capacity` if it is below the number of samples, for
 /// `ranks` and `classes` if the plane has none; AZULEJO_ERROR_TOO_LARGE as azulejo_kdrt_window.
-#[expect(clippy::too_many_arguments, reason = "three arrays of one capacity")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window_into(
     plane: *const azulejo_kdrt,
