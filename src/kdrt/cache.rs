@@ -19,7 +19,7 @@ use crate::kdrt::{
 use crate::plane::rect::Rect;
 
 /// The bytes of a cache, about: what is added at once may exceed them.
-const MOST_BYTES: usize = 1 << 24;
+const MOST_BYTES: usize = 1 << 25;
 
 /// Blocks along the side of a page, of which a bit each says if they were made.
 const PAGE: i32 = 8;
@@ -215,6 +215,7 @@ impl<S: Placed> Cache<S> {
         }
         for (page, bits) in fresh {
             if let Some(page) = pages.young.get_mut(&(layer, page)) {
+                page.samples.shrink_to_fit();
                 page.made |= bits;
             }
         }

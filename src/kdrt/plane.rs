@@ -89,7 +89,7 @@ pub fn sample_window(
 /// domain, in 16 bytes per sample. Given samples are copied for each class, in 40 bytes each, and a window costs those
 /// near it. Groups of classes that fill a torus of less than two blocks (see [`Kind::Classes`]) are kept with those
 /// before, in 12 bytes per sample. In progressive order and of several classes, what windows make is kept for those
-/// after them, in at most 16 MB: see [`Plane::window`].
+/// after them, in at most 32 MB: see [`Plane::window`].
 pub struct Plane {
     set: Set,
     layers: Layers,
@@ -155,7 +155,7 @@ impl Plane {
     /// equal own radii adds about 30 times the largest distance within it, and one to the groups before.
     ///
     /// O(n) in time and memory for the n samples of the window and its surroundings. In progressive order and of several
-    /// classes these are wide, but made once: the plane keeps them, as far as they fit into 16 MB, so that the first
+    /// classes these are wide, but made once: the plane keeps them, as far as they fit into 32 MB, so that the first
     /// window in a region is slow, and windows near those before are fast. The samples do not depend on what is kept.
     ///
     /// # Errors

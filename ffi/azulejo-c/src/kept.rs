@@ -28,7 +28,7 @@ handle!(azulejo_kdrt);
 /// to about 10^11. A domain that is not tiled (see azulejo_kdrt_sample) is made as a whole and
 /// kept, in 8 bytes per sample; in progressive order levels of up to 65,536 samples are, unless the
 /// coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB. In progressive order and
-/// of several classes a plane also keeps what windows make, in up to 16 MB.
+/// of several classes a plane also keeps what windows make, in up to 32 MB.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create(
     context: *const azulejo_context,
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn azulejo_kdrt_create_wide(
 ///
 /// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
 /// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has.
-/// The plane keeps these, up to 16 MB: the first window in a region takes long, those near it do
+/// The plane keeps these, up to 32 MB: the first window in a region takes long, those near it do
 /// not. The samples do not depend on what is kept.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window(
