@@ -322,9 +322,8 @@ pub(crate) fn reason(stopped: Stopped) -> u32 {
 ///
 /// O(count) time for each step from evenly spread points. O(count * log count) where the
 /// triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
-/// AZULEJO_METHOD_MOMENTUM in sets of a few points and in the first steps of sets with holes as
-/// wide as the domain. A bounded domain takes up to four times the time and memory of a periodic
-/// one. O(count) memory.
+/// AZULEJO_METHOD_MOMENTUM while more than 64 points have holes as wide as the domain. A bounded
+/// domain takes up to four times the time and memory of a periodic one. O(count) memory.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
 #[unsafe(no_mangle)]
