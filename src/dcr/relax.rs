@@ -129,8 +129,8 @@ impl From<DelaunayOptions> for Options {
 /// call that is cancelled returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).
 ///
 /// Each step is O(n) for sets without dense clusters, but O(n log n) where a Delaunay triangulation is built anew:
-/// always by the thesis's method, and by the momentum method in sets of a few points, with holes as wide as the domain,
-/// or with points that have dozens of neighbours. A bounded domain costs up to four times the time and memory of a
+/// always by the thesis's method, and by the momentum method while more than 64 points have holes as wide as the domain,
+/// or points have dozens of neighbours. A bounded domain costs up to four times the time and memory of a
 /// periodic one, as the momentum method works on it and its mirror images. Memory is O(n).
 ///
 /// # Errors

@@ -18,6 +18,7 @@ mod dcr_classes;
 mod dcr_converged;
 mod dcr_density;
 mod dcr_density_report;
+mod dcr_few;
 mod dcr_starts;
 mod dcr_thesis;
 mod differential;

@@ -300,9 +300,9 @@ pub(crate) fn reason(stopped: Stopped) -> u32 {
 /// d_max; otherwise the state after the last whole step.
 ///
 /// O(count) time for each step, O(count * log count) where the triangulation is built again: in
-/// each step of AZULEJO_METHOD_THESIS, with AZULEJO_METHOD_MOMENTUM for a few points and in the
-/// first steps of sets with holes as wide as the domain. A bounded domain takes up to four times
-/// the time and memory of a periodic one. O(count) memory.
+/// each step of AZULEJO_METHOD_THESIS, with AZULEJO_METHOD_MOMENTUM while more than 64 points have
+/// holes as wide as the domain. A bounded domain takes up to four times the time and memory of a
+/// periodic one. O(count) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
     context: *const azulejo_context,

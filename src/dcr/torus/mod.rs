@@ -58,6 +58,8 @@ pub struct Torus {
     unit: DVec2,
     /// The number of these units in a spacing.
     per_spacing: Vec2,
+    /// The bits of a coordinate that count periods of the frame: none, but for a torus of several.
+    period_bits: u32,
 }
 
 impl Torus {
@@ -77,11 +79,18 @@ impl Torus {
             frame: Frame::new(whole, count),
             unit: DVec2::ONE,
             per_spacing: Vec2::ONE,
+            period_bits: 0,
         };
         torus.frame = Frame::new(whole, count * torus.copies());
         torus.unit = torus.frame.size() / TURN;
         torus.per_spacing = torus.unit.recip().as_vec2();
         torus
+    }
+
+    /// The torus of 2^`period_bits` periods of this one along each axis, for offsets between its points.
+    pub fn covering(&self, period_bits: u32) -> Self {
+        let periods = (1u64 << period_bits) as f64;
+        Self { unit: self.unit * periods, per_spacing: self.per_spacing / periods as f32, period_bits, ..*self }
     }
 
     /// The number of times that each point occurs on the torus.
@@ -160,7 +169,9 @@ impl Torus {
             Boundary::Periodic => [f32::NAN; 2],
             Boundary::Bounded => {
                 let unit = self.unit.as_vec2().to_array();
-                std::array::from_fn(|axis| place[axis].wrapping_mul(2).wrapping_neg().cast_signed() as f32 * unit[axis])
+                // Within a period of the frame.
+                let shortest = |offset: u32| (offset << self.period_bits).cast_signed() >> self.period_bits;
+                std::array::from_fn(|axis| shortest(place[axis].wrapping_mul(2).wrapping_neg()) as f32 * unit[axis])
             }
         }
     }
@@ -197,8 +208,13 @@ impl Torus {
 
     /// A point of the domain after a displacement.
     pub fn moved(&self, place: TorusPoint, displacement: Vec2) -> TorusPoint {
+        self.inside(self.displaced(place, displacement))
+    }
+
+    /// A point of the torus after a displacement.
+    pub fn displaced(&self, place: TorusPoint, displacement: Vec2) -> TorusPoint {
         let by = (displacement * self.per_spacing).to_array();
-        self.inside(std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned())))
+        std::array::from_fn(|axis| place[axis].wrapping_add((by[axis] as i32).cast_unsigned()))
     }
 }
 

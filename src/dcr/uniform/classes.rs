@@ -148,6 +148,11 @@ impl Subset {
             }
             None => Gathering { is_unsound: true, ..Gathering::default() },
         };
+        // Points that are free may turn triangles over.
+        if self.mesh.take_if(|mesh| !mesh.holds_back()).is_some() {
+            all.suspects.clear();
+            all.forces.iter_mut().for_each(|force| force.clearance = FREE_CLEARANCE);
+        }
         if all.is_unsound {
             self.mesh = None;
             all = self.gather_anew(&job.part(0.9, 1.0), constraints)?;

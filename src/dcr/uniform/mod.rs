@@ -10,11 +10,12 @@
 //! * the boundary of a bounded domain is a mirror in which points do not see themselves (`torus/boundary.rs`);
 //! * constraints grow stiffer: soft ones let the set stay irregular while it spreads, stiff ones leave no violations;
 //! * points that block each other for good are kicked, and those that flat triangles jam move as if in no mesh;
-//! * the triangulation is kept and repaired by flips (`flip_mesh`). Where it cannot be, with a few points or large
-//!   holes, it is built anew in every step.
+//! * the triangulation is kept and repaired by flips (`flip_mesh`), that of a few points on a torus of several periods
+//!   (`cover`). Where it cannot be, with large holes, it is built anew in every step.
 
 mod cells;
 mod classes;
+mod cover;
 mod flip_mesh;
 mod rings;
 mod stars;
@@ -26,7 +27,7 @@ use std::ops::Range;
 
 use glam::Vec2;
 
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood, SAFE_FRACTION};
 use crate::dcr::relaxation::{PlaneRelaxation, Relaxation};
 use crate::dcr::torus::{
     CLUSTERED, CurveOrder, LONG_WAVES, MirrorBoundary, Neighbours, Torus, TorusPoint, WaveGrid, leveled,
@@ -86,8 +87,8 @@ pub struct UniformRelaxation {
     violated: usize,
     /// The mesh of the points, once it exists.
     mesh: Option<FlipMesh>,
-    /// The edges of the mesh that may have to be flipped after the last step.
-    suspects: Vec<Edge>,
+    /// The edges of the mesh that may have to be flipped after the last step; none if triangles may have turned over.
+    suspects: Option<Vec<Edge>>,
     /// The cells of the points, while they are valid.
     cells: Option<VerletCells>,
 }
@@ -109,7 +110,7 @@ impl UniformRelaxation {
             violated: usize::MAX,
             state: State { places: torus.with_images(order.start()), velocities: vec![Vec2::ZERO; order.len()] },
             mesh: None,
-            suspects: Vec::new(),
+            suspects: None,
             cells: None,
             torus,
             seed,
@@ -220,22 +221,25 @@ impl Relaxation for UniformRelaxation {
         let mut next = std::mem::take(&mut self.next);
         next.fit(&self.state);
         let mut neighbours = self.neighbours(&job.part(0.2, 0.4), iteration)?;
-        let mut found =
-            self.parameters(iteration, &drift).advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
-        if found.is_unsound {
-            neighbours = NeighbourSearch::Delaunay(Neighbours::Built(self.triangulate(&job.part(0.6, 0.65))?));
-            found = self.parameters(iteration, &drift).advance(
-                &job.part(0.65, 0.7),
-                &neighbours,
-                &self.state,
-                &mut next,
-            )?;
+        let parameters = self.parameters(iteration, &drift);
+        let mut found = parameters.advance(&job.part(0.4, 0.6), &neighbours, &self.state, &mut next)?;
+        if found.is_unsound
+            && let Some(mesh) = FlipMesh::of_few(&job.part(0.6, 0.61), &self.torus, &self.state.places)?
+        {
+            neighbours = NeighbourSearch::Delaunay(Neighbours::Kept(mesh));
+            found = parameters.advance(&job.part(0.61, 0.63), &neighbours, &self.state, &mut next)?;
         }
-        self.keep(next, matches!(neighbours, NeighbourSearch::Delaunay(Neighbours::Kept(_))).then_some(found.violated));
+        if found.is_unsound {
+            neighbours = NeighbourSearch::Delaunay(Neighbours::Built(self.triangulate(&job.part(0.63, 0.65))?));
+            found = parameters.advance(&job.part(0.65, 0.7), &neighbours, &self.state, &mut next)?;
+        }
+        let is_known = matches!(&neighbours, NeighbourSearch::Delaunay(Neighbours::Kept(mesh)) if mesh.holds_back());
+        self.keep(next, is_known.then_some(found.violated));
         match neighbours {
             NeighbourSearch::Delaunay(Neighbours::Kept(mesh)) => {
-                self.mesh = (!found.is_torn).then_some(mesh);
-                self.suspects = found.suspects;
+                // Triangles of a few points rarely have turned over.
+                self.mesh = (!found.is_torn || !mesh.holds_back()).then_some(mesh);
+                self.suspects = (!found.is_torn).then_some(found.suspects);
             }
             NeighbourSearch::Nearest(mut cells) => {
                 let reach = self.constraints(iteration + 1).conflict_radius;
@@ -248,8 +252,12 @@ impl Relaxation for UniformRelaxation {
 
     fn follow(&mut self, job: &Job) -> Result<()> {
         if let Some(mut mesh) = self.mesh.take() {
-            let suspects = std::mem::take(&mut self.suspects);
-            self.mesh = mesh.mend(&job.part(0.7, 1.0), &self.state.places, suspects)?.then_some(mesh);
+            let (job, places) = (job.part(0.7, 1.0), &self.state.places);
+            let is_sound = match self.suspects.take() {
+                Some(suspects) => mesh.mend(&job, places, suspects)?,
+                None => mesh.repair(&job, places)?,
+            };
+            self.mesh = is_sound.then_some(mesh);
         }
         Ok(())
     }
@@ -263,17 +271,15 @@ impl Relaxation for UniformRelaxation {
             self.state.places = self.torus.with_images(self.order.given());
             self.mesh = None;
         }
-        if self.fewest == usize::MAX {
-            return Ok(());
-        }
         let places = &self.state.places;
-        // A call that was cancelled may have lost the mesh.
         let mesh = match self.mesh.take() {
             Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
+            None if self.fewest == usize::MAX => None,
+            // A call that was cancelled may have lost the mesh.
             None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
         };
         let Some(mesh) = mesh else { return Ok(()) };
-        if mesh.violated(&job.part(0.5, 1.0), places, self.order.len())? <= self.fewest {
+        if self.fewest == usize::MAX || mesh.violated(&job.part(0.5, 1.0), places, self.order.len())? <= self.fewest {
             self.mesh = Some(mesh);
         } else {
             self.state = std::mem::take(&mut self.least_violated);
@@ -371,7 +377,7 @@ pub struct Findings {
     pub is_unsound: bool,
     /// The number of points whose constraints were violated before the step; not known for points in no mesh.
     pub violated: usize,
-    /// True if jammed points were moved, over which triangles may have turned over.
+    /// True if jammed or free points were moved so far that triangles may have turned over.
     pub is_torn: bool,
     /// The square of the longest displacement of points that are in no mesh.
     pub longest_squared: f32,
@@ -390,7 +396,7 @@ impl Step<'_> {
         let count = now.velocities.len();
         let found = job.part(0.0, 0.9).map_each(parts(count, next), |part| {
             let constraints = &self.constraints;
-            let mut gathering = Gathering { step: self, now, part, found: Findings::default() };
+            let mut gathering = Gathering { step: self, now, part, is_free: false, found: Findings::default() };
             let points = gathering.part.points.clone();
             match neighbours {
                 NeighbourSearch::Nearest(cells) => {
@@ -400,6 +406,7 @@ impl Step<'_> {
                     gathering.each(|point| Force { sum: forces[point - points.start], clearance: FREE_CLEARANCE });
                 }
                 NeighbourSearch::Delaunay(Neighbours::Kept(mesh)) => {
+                    gathering.is_free = !mesh.holds_back();
                     mesh.gather(self.level, &now.places, constraints, points, &mut gathering);
                 }
                 NeighbourSearch::Delaunay(Neighbours::Built(delaunay)) => {
@@ -431,6 +438,8 @@ struct Gathering<'a> {
     step: &'a Step<'a>,
     now: &'a State,
     part: Part<'a>,
+    /// True if the mesh does not hold points back: they move as if they were in no mesh.
+    is_free: bool,
     found: Findings,
 }
 
@@ -469,8 +478,8 @@ impl Visitor for Gathering<'_> {
                     boundary.force(&self.step.constraints, self.now.places[point], sum).to_array();
             }
         }
-        let mut clearance = gathered.clearance;
-        if let Some(kick) = self.step.kick {
+        let mut clearance = if self.is_free { [FREE_CLEARANCE; EIGHT] } else { gathered.clearance };
+        if let Some(kick) = self.step.kick.filter(|_| !self.is_free) {
             for lane in gathered.violated(points.len()) {
                 let is_jammed = kick.frees && clearance[lane] < JAMMED;
                 if !(is_jammed || kick.is_for_all) {
@@ -496,6 +505,8 @@ impl Visitor for Gathering<'_> {
         });
         let first = points.start - self.part.points.start;
         for (lane, (displacement, velocity)) in moved.into_iter().enumerate().take(points.len()) {
+            let safe = SAFE_FRACTION * gathered.clearance[lane];
+            self.found.is_torn |= self.is_free && displacement.length_squared() > safe * safe;
             self.part.velocities[first + lane] = velocity;
             self.part.places[first + lane] = step.torus.moved(now.places[points.start + lane], displacement);
         }
@@ -521,8 +532,58 @@ fn parts(count: usize, next: &mut State) -> Vec<Part<'_>> {
 mod tests {
     use super::*;
 
+    use crate::dcr::torus::random_sets::random_places;
     use crate::job::Context;
     use crate::points::Boundary;
+
+    /// A step of a few points with the triangulation that is kept is the one with a triangulation built for it, also
+    /// after many steps; and all points move freely.
+    #[test]
+    fn a_few_points_move_as_with_a_triangulation_built_for_each_step() {
+        let context = Context::new(1).unwrap();
+        for (width, count) in [(1.0, 2), (1.0, 3), (1.0, 5), (9.0, 6), (1.0, 16), (0.02, 11), (7.0, 64)] {
+            let (torus, places) = random_places(Boundary::Periodic, width, count);
+            let points: Vec<_> = places.iter().map(|&place| torus.leave(place)).collect();
+            let domain = Domain { min: [0.0; 2], max: [width, 1.0], boundary: Boundary::Periodic };
+            let mut set = UniformRelaxation::new(domain, Neighbourhood::Delaunay, 0, &points);
+            let mut compared = 0;
+            context
+                .run(None, |job| {
+                    (0..60).try_for_each(|iteration| {
+                        if let Some(mut mesh) = set.mesh.take() {
+                            set.mesh = mesh.repair(job, &set.state.places)?.then_some(mesh);
+                        }
+                        let Some(mesh) = set.mesh.take_if(|mesh| !mesh.holds_back()) else {
+                            set.step(job, iteration)?;
+                            return set.follow(job);
+                        };
+                        compared += 1;
+                        let step = Step { kick: None, ..set.parameters(iteration, &[]) };
+                        let built = Neighbours::Built(set.triangulate(job)?);
+                        let [kept, built] = [Neighbours::Kept(mesh), built].map(|neighbours| {
+                            let mut next = State::default();
+                            next.fit(&set.state);
+                            let neighbours = NeighbourSearch::Delaunay(neighbours);
+                            let found = step.advance(job, &neighbours, &set.state, &mut next).unwrap();
+                            assert!(!found.is_unsound);
+                            let NeighbourSearch::Delaunay(Neighbours::Kept(mesh)) = neighbours else {
+                                return (next, None);
+                            };
+                            (next, Some(mesh))
+                        });
+                        for (&kept, &built) in kept.0.places.iter().zip(&built.0.places) {
+                            let error = torus.offset(kept, built).length();
+                            assert!(error < 1e-4, "{count} points in {width}, {iteration}: {error}");
+                        }
+                        set.mesh = kept.1;
+                        set.step(job, iteration)?;
+                        set.follow(job)
+                    })
+                })
+                .unwrap();
+            assert!(compared > 20, "{count} points in {width}: {compared}");
+        }
+    }
 
     /// With more steps a set gets no worse, even though kicks may make the last state worse than one before.
     #[test]

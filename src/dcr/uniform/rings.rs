@@ -25,8 +25,69 @@ const LINE: usize = 16;
 /// The largest number of slots: for points with more neighbours all others would waste too much memory.
 const MOST: usize = 64;
 
-/// An edge, from point to point.
+/// An edge, from point to point, each by its name in rings ([`Copies`]).
 pub type Edge = [u32; 2];
+
+/// The names of points in rings.
+///
+/// On a torus that is large beside its edges, the name of a neighbour is its index. On a small one several copies of a
+/// point, or copies of the point itself, are neighbours: there the highest bits of a name are the number of periods
+/// from the point to its copy, modulo 8, along `x` and along `y`. Positions are those on a torus of eight periods each,
+/// whose offsets are unambiguous.
+#[derive(Clone, Copy)]
+pub struct Copies {
+    /// The bits of a name that are numbers of periods along `x` and along `y`.
+    along: [u32; 2],
+}
+
+/// The bits of a number of periods.
+pub const PERIOD_BITS: u32 = 3;
+
+impl Copies {
+    /// Names without copies.
+    pub const NONE: Self = Self { along: [0; 2] };
+    /// Names with copies.
+    pub const MANY: Self = Self { along: [7 << 29, 7 << 26] };
+
+    /// True if names have copies.
+    pub fn are_named(self) -> bool {
+        self.along != [0; 2]
+    }
+
+    /// The index of a point.
+    #[inline(always)]
+    pub fn point(self, name: u32) -> usize {
+        (name & !(self.along[0] | self.along[1])) as usize
+    }
+
+    /// The copy of a point that is so many periods away.
+    pub fn copy(self, point: u32, periods: [i32; 2]) -> u32 {
+        let [x, y] = periods.map(i32::cast_unsigned);
+        point | (x << 29 & self.along[0]) | (y << 26 & self.along[1])
+    }
+
+    /// The position of a point, of `places` on the torus of eight periods.
+    #[inline(always)]
+    pub fn place(self, places: &[TorusPoint], name: u32) -> TorusPoint {
+        let [x, y] = places[self.point(name)];
+        let [along_x, along_y] = self.along.map(|along| name & along);
+        [x.wrapping_add(along_x), y.wrapping_add(along_y << PERIOD_BITS)]
+    }
+
+    /// The name of a point for one that names itself without periods, and another by the name `from`.
+    #[inline(always)]
+    fn seen_from(self, name: u32, from: u32) -> u32 {
+        let [x, y] = self.along.map(|along| (name & along).wrapping_sub(from & along) & along);
+        self.point(name) as u32 | x | y
+    }
+
+    /// The reverse of [`Copies::seen_from`].
+    #[inline(always)]
+    fn seen_as_from(self, name: u32, from: u32) -> u32 {
+        let [x, y] = self.along.map(|along| (name & along).wrapping_add(from & along) & along);
+        self.point(name) as u32 | x | y
+    }
+}
 
 /// Rings of some points, in no order: the form in which a mesh is built.
 #[derive(Default)]
@@ -38,6 +99,7 @@ pub struct RingList {
 
 /// The neighbours of every point.
 pub struct Rings {
+    copies: Copies,
     /// The number of neighbours that a point can have.
     slots: usize,
     degrees: Vec<u8>,
@@ -47,6 +109,7 @@ pub struct Rings {
 
 /// The rings of consecutive points, mutable.
 pub struct Patch<'a> {
+    copies: Copies,
     first: u32,
     slots: usize,
     degrees: &'a mut [u8],
@@ -78,7 +141,30 @@ impl Rings {
             slots_of_point[ring.len()..].fill(*ring.first()?);
             degrees[point] = ring.len() as u8;
         }
-        degrees.iter().all(|&degree| degree >= 3).then_some(Self { slots, degrees, neighbours })
+        degrees.iter().all(|&degree| degree >= 3).then_some(Self { copies: Copies::NONE, slots, degrees, neighbours })
+    }
+
+    /// The rings of `count` points on a torus on which only the first, and with it its copies, are in triangles: the
+    /// halves of the rectangle between four of them.
+    pub fn of_first(count: usize) -> Self {
+        let (copies, slots) = (Copies::MANY, 2 * LINE);
+        let (mut degrees, mut neighbours) = (vec![0; count], vec![0; count * slots]);
+        let around = [[1, 0], [1, 1], [0, 1], [-1, 0], [-1, -1], [0, -1]];
+        neighbours.iter_mut().zip(around).for_each(|(neighbour, periods)| *neighbour = copies.copy(0, periods));
+        degrees.iter_mut().take(1).for_each(|degree| *degree = around.len() as u8);
+        Self { copies, slots, degrees, neighbours }
+    }
+
+    /// These rings on the torus itself, with names without copies.
+    pub fn without_copies(&self) -> Self {
+        let neighbours = self.neighbours.iter().map(|&name| self.copies.point(name) as u32).collect();
+        Self { copies: Copies::NONE, slots: self.slots, degrees: self.degrees.clone(), neighbours }
+    }
+
+    /// The names of points in these rings.
+    #[inline(always)]
+    pub fn copies(&self) -> Copies {
+        self.copies
     }
 
     /// The number of points.
@@ -116,26 +202,32 @@ impl Rings {
         let is_distinct = (1..ring.len()).all(|k| !ring[..k].contains(&ring[k]));
         is_distinct
             && ring.iter().zip(ring.iter().cycle().skip(1)).all(|(&q, &r)| {
-                let ring = self.ring(q as usize);
-                ring.iter().position(|&p| p == r).is_some_and(|k| ring[(k + 1) % ring.len()] as usize == point)
+                let ring = self.ring(self.copies.point(q));
+                let [r, point] = [r, point as u32].map(|name| self.copies.seen_from(name, q));
+                ring.iter().position(|&p| p == r).is_some_and(|k| ring[(k + 1) % ring.len()] == point)
             })
     }
 
     /// The rings in patches of `size` points.
     pub fn patches(&mut self, size: usize) -> impl Iterator<Item = Patch<'_>> {
-        let slots = self.slots;
+        let (copies, slots) = (self.copies, self.slots);
         let parts = self.degrees.chunks_mut(size).zip(self.neighbours.chunks_mut(size * slots));
         parts.enumerate().map(move |(i, (degrees, neighbours))| {
             let first = (i * size) as u32;
-            Patch { first, slots, degrees, neighbours }
+            Patch { copies, first, slots, degrees, neighbours }
         })
     }
 }
 
 impl Patch<'_> {
+    /// The names of points in the rings.
+    pub fn copies(&self) -> Copies {
+        self.copies
+    }
+
     /// True if the ring of a point is in the patch.
-    pub fn holds(&self, point: u32) -> bool {
-        (point.wrapping_sub(self.first) as usize) < self.degrees.len()
+    pub fn holds(&self, name: u32) -> bool {
+        self.index(name) < self.degrees.len()
     }
 
     /// The index after the last point of the patch.
@@ -143,22 +235,37 @@ impl Patch<'_> {
         self.first as usize + self.degrees.len()
     }
 
-    fn ring(&self, point: u32) -> &[u32] {
-        let index = (point - self.first) as usize;
+    /// The number of points of the patch.
+    pub fn len(&self) -> usize {
+        self.degrees.len()
+    }
+
+    /// The index of a point in the patch.
+    fn index(&self, name: u32) -> usize {
+        self.copies.point(name).wrapping_sub(self.first as usize)
+    }
+
+    /// The ring of a point, in the names for which its own has no periods.
+    pub fn ring(&self, name: u32) -> &[u32] {
+        let index = self.index(name);
         &self.neighbours[index * self.slots..][..self.degrees[index].into()]
     }
 
     /// The points on the left and on the right of the edge from `p` to `q`; none if that is no edge.
     pub fn apices(&self, [p, q]: [u32; 2]) -> Option<[u32; 2]> {
-        let ring = self.ring(p);
+        let (ring, q) = (self.ring(p), self.copies.seen_from(q, p));
         let k = ring.iter().position(|&other| other == q)?;
-        Some([ring[(k + 1) % ring.len()], ring[(k + ring.len() - 1) % ring.len()]])
+        let [r, s] = [ring[(k + 1) % ring.len()], ring[(k + ring.len() - 1) % ring.len()]];
+        Some([r, s].map(|apex| self.copies.seen_as_from(apex, p)))
     }
 
     /// Replaces the edge from `p` to `q` by the one between the points on its left and on its right. All four are held.
     pub fn flip(&mut self, [p, q]: [u32; 2], [r, s]: [u32; 2]) -> std::result::Result<(), Impossible> {
-        let is_full = |point: u32| self.ring(point).len() == self.slots;
-        if self.ring(p).len() == 3 || self.ring(q).len() == 3 || is_full(r) || is_full(s) {
+        // Two of them may be copies of one point.
+        let are_copies = |a: u32, b: u32| usize::from(self.copies.point(a) == self.copies.point(b));
+        let is_least = |a: u32, b: u32| self.ring(a).len() <= 3 + are_copies(a, b);
+        let is_full = |a: u32, b: u32| self.ring(a).len() + are_copies(a, b) >= self.slots;
+        if is_least(p, q) || is_least(q, p) || is_full(r, s) || is_full(s, r) {
             return Err(Impossible);
         }
         self.remove(p, q);
@@ -168,9 +275,24 @@ impl Patch<'_> {
         Ok(())
     }
 
+    /// Divides the triangle with these corners, counter-clockwise, by a point in it that had no ring. All are held.
+    pub fn divide(&mut self, [a, b, c]: [u32; 3], point: u32) -> std::result::Result<(), Impossible> {
+        // All three may be copies of one point.
+        if [a, b, c].into_iter().any(|corner| self.ring(corner).len() + 3 > self.slots) {
+            return Err(Impossible);
+        }
+        let index = self.index(point);
+        self.neighbours[index * self.slots..][..3].copy_from_slice(&[a, b, c]);
+        self.degrees[index] = 3;
+        self.insert(a, point, b);
+        self.insert(b, point, c);
+        self.insert(c, point, a);
+        Ok(())
+    }
+
     /// Removes `other` from a ring.
     fn remove(&mut self, point: u32, other: u32) {
-        let index = (point - self.first) as usize;
+        let (index, other) = (self.index(point), self.copies.seen_from(other, point));
         let degree = usize::from(self.degrees[index]);
         let ring = &mut self.neighbours[index * self.slots..][..degree];
         let k = ring.iter().position(|&neighbour| neighbour == other).expect("both ends know an edge");
@@ -180,7 +302,8 @@ impl Patch<'_> {
 
     /// Inserts `other` into a ring, after `before`.
     fn insert(&mut self, point: u32, other: u32, before: u32) {
-        let index = (point - self.first) as usize;
+        let index = self.index(point);
+        let [other, before] = [other, before].map(|name| self.copies.seen_from(name, point));
         let degree = usize::from(self.degrees[index]);
         let ring = &mut self.neighbours[index * self.slots..][..=degree];
         let k = ring.iter().position(|&neighbour| neighbour == before).expect("corners of a triangle are neighbours");

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use crate::dcr::law::Constraints;
 use crate::dcr::torus::{Torus, TorusPoint};
-use crate::dcr::uniform::rings::Rings;
+use crate::dcr::uniform::rings::{Copies, Rings};
 use crate::simd::{Lanes, Level, Work, run};
 
 /// The number of points that are processed at a time.
@@ -67,7 +67,10 @@ impl Gathered {
             let others = (0..ring.len())
                 .filter(|&k| mask >> k.min(LAST_BIT) & 1 == 1)
                 .map(|k| ring[(k + ring.len() - 1) % ring.len()]);
-            suspects.extend(others.filter(|&other| point < other as usize).map(|other| [point as u32, other]));
+            // From a point to its own copy, by both ends.
+            suspects.extend(
+                others.filter(|&other| point <= rings.copies().point(other)).map(|other| [point as u32, other]),
+            );
         }
     }
 }
@@ -105,17 +108,20 @@ pub struct Stars<'a> {
 impl Stars<'_> {
     /// Gathers for a range of points and passes the results to `visitor`.
     pub fn gather(&self, level: Level, points: Range<usize>, visitor: &mut impl Visitor) {
-        run(level, Gather { stars: self, points, visitor });
+        match self.rings.copies().are_named() {
+            false => run(level, Gather::<_, false> { stars: self, points, visitor }),
+            true => run(level, Gather::<_, true> { stars: self, points, visitor }),
+        }
     }
 
     #[inline(always)]
-    fn gather_eight(&self, points: [usize; EIGHT]) -> Gathered {
+    fn gather_eight<const COPIES: bool>(&self, points: [usize; EIGHT]) -> Gathered {
         let &Self { rings, torus, places, constraints } = self;
         let slots: [&[u32]; EIGHT] = from_fn(|i| rings.slots_of(points[i]));
         let degrees: [u32; EIGHT] = from_fn(|i| rings.degree(points[i]) as u32);
         let here: [u64; EIGHT] = from_fn(|i| whole(places[points[i]]));
         let (unit, longest) = torus.unit_and_longest();
-        let eight = Eight { places, rings: slots, here, unit: unit.to_array() };
+        let eight = Eight::<COPIES> { places, rings: slots, here, unit: unit.to_array() };
         let images: [[f32; 2]; EIGHT] = from_fn(|i| torus.image_distances(places[points[i]]));
         let images = [0, 1].map(|axis| images.map(|image| image[axis]));
         let first = eight.offsets(degrees.map(|degree| degree as usize - 2));
@@ -128,14 +134,14 @@ impl Stars<'_> {
     }
 }
 
-/// [`Stars::gather`].
-struct Gather<'a, V> {
+/// [`Stars::gather`]; `COPIES` is true if names of points have copies.
+struct Gather<'a, V, const COPIES: bool> {
     stars: &'a Stars<'a>,
     points: Range<usize>,
     visitor: &'a mut V,
 }
 
-impl<V: Visitor> Work for Gather<'_, V> {
+impl<V: Visitor, const COPIES: bool> Work for Gather<'_, V, COPIES> {
     type Out = ();
 
     #[inline(always)]
@@ -144,13 +150,13 @@ impl<V: Visitor> Work for Gather<'_, V> {
         for first in points.clone().step_by(EIGHT) {
             let eight = first..points.end.min(first + EIGHT);
             let all = from_fn(|lane| (first + lane).min(points.end - 1));
-            visitor.visit(stars.rings, eight, &stars.gather_eight(all));
+            visitor.visit(stars.rings, eight, &stars.gather_eight::<COPIES>(all));
         }
     }
 }
 
 /// Eight points and their rings.
-struct Eight<'a> {
+struct Eight<'a, const COPIES: bool> {
     places: &'a [TorusPoint],
     rings: [&'a [u32]; EIGHT],
     here: [u64; EIGHT],
@@ -163,11 +169,15 @@ fn whole(place: TorusPoint) -> u64 {
     u64::from(place[0]) | u64::from(place[1]) << 32
 }
 
-impl Eight<'_> {
+impl<const COPIES: bool> Eight<'_, COPIES> {
     /// The offsets of the neighbours in these slots of the rings.
     #[inline(always)]
     fn offsets(&self, slots: [usize; EIGHT]) -> [Floats; 2] {
-        let there: [u64; EIGHT] = from_fn(|i| whole(self.places[self.rings[i][slots[i]] as usize]));
+        let place = |name: u32| match COPIES {
+            false => self.places[name as usize],
+            true => Copies::MANY.place(self.places, name),
+        };
+        let there: [u64; EIGHT] = from_fn(|i| whole(place(self.rings[i][slots[i]])));
         let along = |axis: usize, i: usize| {
             let [there, here] = [there[i], self.here[i]].map(|place| (place >> (32 * axis)) as u32);
             there.wrapping_sub(here).cast_signed() as f32 * self.unit[axis]
