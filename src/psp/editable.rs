@@ -41,7 +41,7 @@ const REACH: f64 = 1.1;
 
 /// Peak memory per sample of a region; and the samples for which memory must be free before those of the region are counted,
 /// since its blocks are made for that.
-const BYTES_PER_SAMPLE: f64 = 180.0;
+const BYTES_PER_SAMPLE: f64 = 200.0;
 const FEWEST: f64 = 2e4;
 
 /// A sample and its id.
