@@ -6,8 +6,13 @@ use crate::dcr::thesis::{Thesis, ThesisRelaxation};
 use crate::dcr::uniform::UniformRelaxation;
 use crate::error::{Error, Result};
 use crate::job::{Context, Progress};
-use crate::points::Domain;
+use crate::points::{Boundary, Domain};
 use crate::setters::setters;
+
+/// The peak memory for a point and all of its data; where it has images; and of the thesis's method.
+const BYTES_PER_POINT: f64 = 315.0;
+const BYTES_PER_MIRRORED_POINT: f64 = 950.0;
+const BYTES_PER_THESIS_POINT: f64 = 330.0;
 
 /// The law by which points move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,8 +164,13 @@ pub fn relax_observed(
 ) -> Result<(Vec<[f32; 2]>, Report)> {
     options.check()?;
     options.domain.check_points(points)?;
-    require_memory("positions", points.len())?;
     let Options { domain, neighbourhood, seed, .. } = *options;
+    let bytes = match (&options.method, domain.boundary) {
+        (Method::Thesis(_), _) => BYTES_PER_THESIS_POINT,
+        (Method::Momentum, Boundary::Periodic) => BYTES_PER_POINT,
+        (Method::Momentum, Boundary::Bounded) => BYTES_PER_MIRRORED_POINT,
+    };
+    require_memory("positions", points.len(), bytes)?;
     match &options.method {
         Method::Momentum => {
             let mut set = UniformRelaxation::new(domain, neighbourhood, seed, points);

@@ -370,12 +370,9 @@ fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<
     Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
 }
 
-/// The peak memory for a point or a sample and all of its data.
-const BYTES_PER_POINT: f64 = 300.0;
-
-/// Refuses more points than fit in memory.
-pub fn require_memory(argument: &'static str, count: usize) -> Result<()> {
-    memory::require(BYTES_PER_POINT * count as f64, argument, &format!("{count} points"))
+/// Refuses more points than fit in memory, of so many bytes each at the peak.
+pub fn require_memory(argument: &'static str, count: usize, bytes: f64) -> Result<()> {
+    memory::require(bytes * count as f64, argument, &format!("{count} points"))
 }
 
 #[cfg(test)]

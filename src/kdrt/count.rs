@@ -16,7 +16,6 @@ use crate::kdrt::{
     stack::{self, Base},
 };
 use crate::math::{exp, hypot, log, power};
-use crate::memory;
 use crate::plane::{CellAxis, CellGrid, Quadtree, lattice::Lattice, rect::Rect};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, Points};
 use crate::rng::{Draw, Rng, hash};
@@ -26,6 +25,10 @@ use crate::setters::setters;
 /// samples exists: put each where the domain is farthest from those before it. More than a dozen attempts at one set
 /// were never observed.
 const ATTEMPTS: u64 = 64;
+
+/// The most bytes that a sample takes, in two sets and the plots that are remade; and in progressive order.
+const BYTES_PER_SAMPLE: f64 = 12.0;
+const FIRST_BYTES_PER_SAMPLE: f64 = 78.0;
 
 /// The share of the remaining progress that the current attempt takes.
 const ATTEMPT_SHARE: f64 = 0.9;
@@ -118,10 +121,10 @@ pub fn sample_count(
     lattice(options, search.radius())?;
     if let Some(levels) = &options.levels {
         levels.check(0.0)?;
-        memory::require(count as f64 * progressive::BYTES_PER_SAMPLE, "count", &format!("{count} samples"))?;
+        stack::require(count as f64, FIRST_BYTES_PER_SAMPLE, 0, "count")?;
         return context.run(progress, |job| first_of_order(job, options, levels));
     }
-    stack::require(count as f64, stack::BYTES_PER_SAMPLE, "count")?;
+    stack::require(count as f64, BYTES_PER_SAMPLE, 0, "count")?;
     context.run(progress, |job| attempt(job, options, search, ATTEMPTS))
 }
 

@@ -48,8 +48,8 @@ const WIDENING: f64 = 1.5;
 const NARROWING: f64 = 3.0;
 
 /// The most bytes that a sample of the result takes, three cells among them, and those of a given point.
-const BYTES_PER_SAMPLE: f64 = 40.0;
-const BYTES_PER_GIVEN: f64 = 40.0;
+const BYTES_PER_SAMPLE: f64 = 27.0;
+const BYTES_PER_GIVEN: f64 = 27.0;
 
 /// The share of the progress until the given points are sorted, and until their conflicts are found.
 const SORT_SHARE: f64 = 0.15;

@@ -40,7 +40,7 @@ use crate::points::{Boundary, Domain, Points, check_resolution};
 /// above 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Points<2>> {
     let set = Set::new(options, true)?;
-    set.require_whole()?;
+    set.require_whole(options.given.positions.len())?;
     context.run(progress, |job| match &set.radii {
         Radii::One { radius, .. } => {
             let around = GivenDisks::new(&options.domain, &set.lattice, *radius, &options.given);
@@ -136,7 +136,7 @@ impl Plane {
     /// available memory; [`Error::Cancelled`].
     pub fn whole(&self, context: &Context, progress: Option<&Progress>) -> Result<Points<2>> {
         self.set.require_floats()?;
-        self.set.require_whole()?;
+        self.set.require_whole(0)?;
         context.run(progress, |job| self.layers.whole(job, &self.set))
     }
 
@@ -362,16 +362,16 @@ impl Set {
         Err(Error::invalid("plane", "is wide: floats cannot carry its samples, only relative windows have them"))
     }
 
-    /// Refuses all samples of a domain that cannot be held.
-    fn require_whole(&self) -> Result<()> {
+    /// Refuses all samples of a domain that cannot be held, beside so many given ones.
+    fn require_whole(&self, given: usize) -> Result<()> {
         let extent = self.domain.extent();
         match &self.radii {
-            Radii::One { radius, .. } => require(estimate(extent, *radius)?, BYTES_PER_SAMPLE, "radius"),
+            Radii::One { radius, .. } => require(estimate(extent, *radius)?, BYTES_PER_SAMPLE, given, "radius"),
             Radii::Progressive { radius, .. } => {
                 estimate(extent, *radius)?;
-                require(self.lattice.expected_samples(), progressive::BYTES_PER_SAMPLE, "radius")
+                require(self.lattice.expected_samples(), progressive::BYTES_PER_SAMPLE, given, "radius")
             }
-            Radii::Classes(classes, _) => require_classes(classes, extent),
+            Radii::Classes(classes, levels) => require_classes(classes, levels.is_some(), extent, given),
         }
     }
 
@@ -385,10 +385,11 @@ impl Set {
     /// Refuses a window whose samples cannot be held.
     fn require(&self, extent: [f64; 2]) -> Result<()> {
         match &self.radii {
-            Radii::One { radius, .. } | Radii::Progressive { radius, .. } => {
-                require(estimate(extent, *radius)?, BYTES_PER_SAMPLE, "radius")
+            Radii::One { radius, .. } => require(estimate(extent, *radius)?, BYTES_PER_SAMPLE, 0, "radius"),
+            Radii::Progressive { radius, .. } => {
+                require(estimate(extent, *radius)?, progressive::BYTES_PER_SAMPLE, 0, "radius")
             }
-            Radii::Classes(classes, _) => require_classes(classes, extent),
+            Radii::Classes(classes, levels) => require_classes(classes, levels.is_some(), extent, 0),
         }
     }
 
@@ -405,10 +406,14 @@ fn most_within([width, height]: [f64; 2]) -> f64 {
     2.0 / 3f64.sqrt() * width * height + width + height + 1.0
 }
 
-/// Refuses more samples of several classes in a rectangle than can be held.
-fn require_classes(classes: &Classes, extent: [f64; 2]) -> Result<()> {
+/// The most bytes for each sample that the classes would have alone; with ranks.
+const BYTES_PER_CLASS_SAMPLE: f64 = 47.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 53.0;
+
+/// Refuses more samples of several classes in a rectangle than can be held beside given ones.
+fn require_classes(classes: &Classes, is_ranked: bool, extent: [f64; 2], given: usize) -> Result<()> {
     let samples = (0..classes.count()).map(|class| estimate(extent, classes.own(class))).sum::<Result<f64>>()?;
-    require(samples, progressive::BYTES_PER_SAMPLE, "radii")
+    require(samples, if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_CLASS_SAMPLE }, given, "radii")
 }
 
 /// The part of a domain between two corners. It is bounded.

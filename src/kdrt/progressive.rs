@@ -36,7 +36,7 @@ use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
 
 /// The most bytes that a sample takes while levels are made.
-pub const BYTES_PER_SAMPLE: f64 = 64.0;
+pub const BYTES_PER_SAMPLE: f64 = 70.0;
 
 /// The share of the progress of a count that the coarsest level takes.
 const COARSEST_SHARE: f64 = 0.05;

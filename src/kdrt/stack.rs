@@ -26,14 +26,18 @@ pub use crate::kdrt::cache::Cached;
 const FEWEST_REFUSED: f64 = 65_536.0;
 
 /// The most bytes that a sample takes: in the result and in the windows being made.
-pub const BYTES_PER_SAMPLE: f64 = 16.0;
+pub const BYTES_PER_SAMPLE: f64 = 9.5;
 
-/// Refuses samples that do not fit in memory. `argument` is the one that asks for them.
-pub fn require(samples: f64, bytes_per_sample: f64, argument: &'static str) -> Result<()> {
-    if samples < FEWEST_REFUSED {
+/// The most bytes that a given sample takes: the disks of all images, by tiles.
+const BYTES_PER_GIVEN: f64 = 70.0;
+
+/// Refuses samples that do not fit in memory beside `given` ones. `argument` is the one that asks for them.
+pub fn require(samples: f64, bytes_per_sample: f64, given: usize, argument: &'static str) -> Result<()> {
+    if samples + (given as f64) < FEWEST_REFUSED {
         return Ok(());
     }
-    memory::require(samples * bytes_per_sample, argument, &format!("about {samples:.0} samples"))
+    let bytes = samples * bytes_per_sample + given as f64 * BYTES_PER_GIVEN;
+    memory::require(bytes, argument, &format!("about {samples:.0} samples"))
 }
 
 /// The speed of tiling relative to that of filling a layer.

@@ -25,7 +25,7 @@ use crate::points::Points;
 use crate::psp::cubes::Cube;
 use crate::psp::fill::blocks::Blocks;
 use crate::psp::fill::extent::Extent;
-use crate::psp::fill::measures::{BYTES_PER_SAMPLE, DENSITY, Measures, check_radius_on, require_samples};
+use crate::psp::fill::measures::{DENSITY, Measures, check_radius_on, require_samples};
 use crate::psp::fill::uniform::{Surface, Uniform};
 use crate::psp::fill::{FillOptions, fill_parts};
 use crate::psp::fragment::Facing;
@@ -38,6 +38,11 @@ use crate::region::Region;
 /// The reach of a sample in radii, in a search for what it covers: more than 1 by what rounding can matter, which is
 /// below a few float spacings, of which a radius has 64.
 const REACH: f64 = 1.1;
+
+/// Peak memory per sample of a region; and the samples for which memory must be free before those of the region are counted,
+/// since its blocks are made for that.
+const BYTES_PER_SAMPLE: f64 = 200.0;
+const FEWEST: f64 = 2e4;
 
 /// A sample and its id.
 #[derive(Clone, Copy)]
@@ -478,13 +483,14 @@ pub fn sample_region(
     let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
     check_radius_on(mesh, radius)?;
     given.check()?;
+    require_samples(FEWEST, BYTES_PER_SAMPLE, "radius", "a region asks for")?;
     let mut set = EditableSet::new(mesh.clone(), measures, radius, Facing::new(cosine)?, seed);
     set.begin(Vec::new(), balls(given, radius).collect(), true);
     set.edits.push(vec![*region]);
     let blocks = |job: &Job| Blocks::new(job, mesh, &set.measures, &set.empty, Some(region));
     let blocks = context.run(None, blocks)?;
     // Only if the whole mesh would have too many samples, those of the region are counted.
-    if set.measures.checked_samples(mesh, radius).is_err() {
+    if set.measures.checked_samples(mesh, radius, BYTES_PER_SAMPLE, Given::default()).is_err() {
         let area = |number| blocks.block(&set.measures, number).items.row(mesh).total();
         let samples = DENSITY * (0..blocks.cubes.len()).map(area).sum::<f64>() / (radius * radius);
         require_samples(samples, BYTES_PER_SAMPLE, "radius", &format!("{radius:?} asks for"))?;

@@ -136,15 +136,18 @@ pub(super) fn balls<'a>(given: Given<'a, 3>, radius: f64) -> impl Iterator<Item 
 
 /// The largest number that can be indexed, as each is listed up to eight times.
 const MOST: usize = (u32::MAX / 8) as usize;
-/// Peak memory for each, approximately.
-const BYTES_PER_GIVEN: f64 = 300.0;
+
+/// Peak memory for given samples, approximately: of those that may be obstacles more.
+pub fn bytes(given: Given<3>) -> f64 {
+    given.positions.len() as f64 * if given.clearances.is_none() { 40.0 } else { 300.0 }
+}
 
 fn check(given: Given<3>) -> Result<()> {
     if given.positions.len() > MOST {
         return Err(Error::too_large("given_count", format!("{}; the limit is {MOST}", given.positions.len())));
     }
     let count = given.positions.len();
-    memory::require(BYTES_PER_GIVEN * count as f64, "given_count", &format!("{count} given samples"))?;
+    memory::require(bytes(given), "given_count", &format!("{count} given samples"))?;
     given.check()
 }
 

@@ -14,7 +14,7 @@ use crate::order::Order;
 use crate::points::{Points, finest_radius};
 use crate::psp::editable::EditableSet;
 use crate::psp::fill::FillOptions;
-use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures};
+use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
 use crate::psp::fill::uniform::Surface;
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
@@ -61,7 +61,7 @@ impl Psp {
     pub fn new(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Result<Self> {
         let radius = options.radius;
         let measures = mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-        let estimate = measures.checked_samples(mesh, radius)?;
+        let estimate = measures.checked_samples(mesh, radius, BYTES_PER_SAMPLE, options.given)?;
         let (facing, samples) = (Facing::new(options.cosine)?, SampleSet::new(mesh, radius));
         Ok(Self {
             mesh: mesh.clone(),
@@ -152,6 +152,11 @@ impl Psp {
 
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
         let iterations = if self.projects { iterations } else { 0 };
+        if iterations > 0 && self.iterations == 0 {
+            let radius = self.options.radius;
+            let estimate = self.measures.expected_samples(&self.mesh, radius);
+            require_samples(estimate, BYTES_PER_CANDIDATE, "radius", &format!("{radius:?} asks for"))?;
+        }
         for step in 0..iterations {
             let share = |step: u32| f64::from(step) / f64::from(iterations);
             let job = job.part(share(step), share(step + 1));
@@ -299,6 +304,13 @@ impl FlatOptions<'_> {
     }
 }
 
+/// Peak memory per sample of a set in progressive order; of an exact number of samples; of both; and of a set that grows by
+/// iterations.
+const BYTES_PER_RANKED_SAMPLE: f64 = 202.0;
+const BYTES_PER_COUNTED_SAMPLE: f64 = 160.0;
+const BYTES_PER_FIRST_SAMPLE: f64 = 216.0;
+const BYTES_PER_CANDIDATE: f64 = 175.0;
+
 /// The largest number of samples that can be indexed.
 const INDEXABLE: usize = u32::MAX as usize;
 
@@ -322,7 +334,7 @@ fn sample_levels(
     let given = match amount {
         Amount::Radius(radius) => {
             let given = GivenSamples::of_levels(mesh, given, Some(radius))?;
-            measures.checked_samples(mesh, radius)?;
+            measures.checked_samples(mesh, radius, BYTES_PER_RANKED_SAMPLE, options.given)?;
             given
         }
         Amount::Count(count) => {
@@ -330,7 +342,8 @@ fn sample_levels(
             if mesh.area() == 0.0 {
                 return Err(Error::invalid("count", format!("{count}, but the mesh's mask leaves no surface")));
             }
-            memory::require(BYTES_PER_SAMPLE * count as f64, "count", &format!("{count} samples"))?;
+            let bytes = if order == Order::Progressive { BYTES_PER_FIRST_SAMPLE } else { BYTES_PER_COUNTED_SAMPLE };
+            memory::require(bytes * count as f64, "count", &format!("{count} samples"))?;
             given
         }
     };

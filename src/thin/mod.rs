@@ -25,10 +25,10 @@ use crate::simd::Level;
 
 use selecting::select;
 
-/// The most bytes that a point takes at the peak, and each of its coordinates: there are three copies of it while the
-/// tree is made, and leaves may be half empty.
-const BYTES_PER_POINT: f64 = 70.0;
-const BYTES_PER_COORDINATE: f64 = 24.0;
+/// The most bytes that a point takes at the peak, and for each of its coordinates; and that a place for a point in the
+/// tree takes, of which there are up to twice as many.
+const BYTES_PER_POINT: [f64; 2] = [6.0, 4.0];
+const BYTES_PER_SLOT: [f64; 2] = [29.0, 8.5];
 
 /// The rule of a selection, and its end.
 ///
@@ -143,8 +143,9 @@ pub fn thin<const D: usize>(
     let count = positions.len();
     check::indexable("positions", "points", count)?;
     check::finite("positions", "point", positions)?;
-    let bytes = BYTES_PER_POINT + D as f64 * BYTES_PER_COORDINATE;
-    memory::require(count as f64 * bytes, "positions", &format!("{count} points"))?;
+    let [point, slot] = [BYTES_PER_POINT, BYTES_PER_SLOT].map(|bytes| bytes[0] + D as f64 * bytes[1]);
+    let bytes = count as f64 * point + tree::slots(count) as f64 * slot;
+    memory::require(bytes, "positions", &format!("{count} points"))?;
     context.run(progress, |job| {
         if positions.is_empty() {
             return Ok(Selection { indices: Vec::new(), ranks: Vec::new(), radius: f64::INFINITY });

@@ -7,6 +7,16 @@ use crate::job::Job;
 /// A point of the cloud and its index.
 type Point<const D: usize> = ([f32; D], u32);
 
+/// The number of halvings from a cloud of so many points to its leaves.
+fn halvings(count: usize) -> u32 {
+    count.div_ceil(POINTS).next_power_of_two().ilog2()
+}
+
+/// The number of places for points in the leaves of the tree of a cloud.
+pub(super) fn slots(count: usize) -> usize {
+    POINTS << halvings(count)
+}
+
 /// The number of times that all threads together halve the cloud, before each halves parts on its own.
 const SHARED_HALVINGS: u32 = 6;
 
@@ -26,7 +36,7 @@ impl<const D: usize> Tree<D> {
     /// none yet.
     pub fn new(job: &Job, positions: &[[f32; D]], squared: f64, nearer: Nearer) -> Result<Self> {
         let mut points: Vec<Point<D>> = positions.iter().copied().zip(0..).collect();
-        let halvings = points.len().div_ceil(POINTS).next_power_of_two().ilog2();
+        let halvings = halvings(points.len());
         let shared = halvings.min(SHARED_HALVINGS);
         let mut parts = vec![points.as_mut_slice()];
         for halving in 0..shared {

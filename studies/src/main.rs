@@ -1,7 +1,7 @@
 //! Measures azulejo and writes the pages of `docs/` that show it, with their pictures.
 //!
 //! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr`, `classes`, `order`,
-//! `tiling`, `figures`, `gallery` and `goals` their pages.
+//! `tiling`, `pixels`, `figures`, `gallery` and `goals` their pages.
 
 mod args;
 mod blue;
@@ -15,6 +15,7 @@ mod goals;
 mod kdrt;
 mod near;
 mod order;
+mod pixels;
 mod psp;
 mod reference;
 mod repeated;
@@ -54,6 +55,8 @@ enum Study {
     /// Measure what else the thesis discusses of randomized tiling: seams, counts, patterns, merging; takes some
     /// minutes.
     Tiling(tiling::Tiling),
+    /// Measure errors of sample sets for pixels, beside those of samplers that renderers use.
+    Pixels(pixels::Study),
     /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots,
     /// lights.
     Figures(figures::Figures),
@@ -72,6 +75,7 @@ fn run(cli: &Cli) -> Result<()> {
         Study::Classes(classes) => classes.run(&context),
         Study::Order(order) => order.run(&context),
         Study::Tiling(tiling) => tiling.run(&context),
+        Study::Pixels(pixels) => pixels.run(&context),
         Study::Figures(figures) => figures.run(&context),
         Study::Gallery(gallery) => gallery.run(&context),
         Study::Goals(goals) => goals.run(&context),

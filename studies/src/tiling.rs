@@ -1,7 +1,7 @@
 //! `azulejo-studies tiling`: what else thesis chapter 2 measures and discusses about KDRT, measured again.
 
 mod circumcentres;
-mod claims;
+pub mod claims;
 mod counts;
 mod levels;
 mod patterns;

@@ -19,7 +19,7 @@ const IMPORTING: &[(&str, usize)] = &[
     ("dcr/uniform/classes.rs", 15),
     ("dcr/uniform/mod.rs", 17),
     ("kdrt/classes/mod.rs", 19),
-    ("kdrt/count.rs", 14),
+    ("kdrt/count.rs", 13),
     ("kdrt/merge.rs", 13),
     ("kdrt/progressive.rs", 17),
     ("kdrt/tiling.rs", 14),

@@ -20,7 +20,7 @@ use crate::dcr::clustering::is_clustered;
 use crate::dcr::density::half_edge_mesh::HalfEdgeMesh;
 use crate::dcr::density::raster::{OctaveGrids, Raster};
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, RingPoint, SAFE_FRACTION, graded_force};
-use crate::dcr::relaxation::{DelaunayOptions, PlaneRelaxation, Relaxation, Report, relax_set, require_memory};
+use crate::dcr::relaxation::{DelaunayOptions, PlaneRelaxation, Relaxation, Report, relax_set};
 use crate::dcr::torus::{CurveOrder, MirrorBoundary, Neighbours, Torus, TorusPoint, along_curve};
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
@@ -115,9 +115,12 @@ pub fn relax_with_density(
     options.check()?;
     density.check()?;
     options.domain.check_points(points)?;
-    require_memory("positions", points.len())?;
+    let bytes = match options.domain.boundary {
+        Boundary::Periodic => BYTES_PER_POINT,
+        Boundary::Bounded => BYTES_PER_MIRRORED_POINT,
+    };
     let mut set = context.run(None, |job| {
-        let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len())?;
+        let raster = Raster::new(&job.part(0.0, 0.5), &options.domain, density, points.len(), ("positions", bytes))?;
         DensityRelaxation::new(&job.part(0.5, 1.0), options.domain, options.seed, raster, points)
     })?;
     relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)
@@ -143,10 +146,15 @@ pub fn scatter(
         return Err(Error::too_large("count", format!("{count} points; the limit is {}", u32::MAX)));
     }
     context.run(progress, |job| {
-        let raster = Raster::new(&job.part(0.0, 0.9), domain, density, count)?;
+        let raster = Raster::new(&job.part(0.0, 0.9), domain, density, count, ("count", BYTES_PER_SCATTERED_POINT))?;
         Ok(raster.scatter(&Torus::new(*domain, count), count, seed))
     })
 }
+
+/// The peak memory for a point and all of its data beside the raster; where it has images; and where it is only thrown.
+const BYTES_PER_POINT: f64 = 450.0;
+const BYTES_PER_MIRRORED_POINT: f64 = 1500.0;
+const BYTES_PER_SCATTERED_POINT: f64 = 10.0;
 
 /// The number of steps from one removal of waves to the next: fewer than in uniform sets, where nothing builds them up
 /// again.

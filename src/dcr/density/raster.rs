@@ -23,8 +23,8 @@ const SLOPE: f32 = 0.5;
 /// The least and the largest number of cells per distance of points; in between a cell is a pixel.
 const FINENESS: [f64; 2] = [4.0, 8.0];
 
-/// Memory for a cell at the peak, when its density is in two arrays.
-const BYTES_PER_CELL: f64 = 12.0;
+/// Memory for a cell at the peak, when points are thrown by the weights of all cells.
+const BYTES_PER_CELL: f64 = 24.2;
 
 /// The least number of cells along an axis: even a few points must find the dark parts of an image.
 const FEWEST: usize = 64;
@@ -41,8 +41,15 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// Samples a density that has been checked, for `count` points of a domain.
-    pub fn new(job: &Job, domain: &Domain, density: &Density, count: usize) -> Result<Self> {
+    /// Samples a density that has been checked, for `count` points of a domain, which are asked for by an argument and
+    /// will take so many bytes each. Refuses more than memory holds.
+    pub fn new(
+        job: &Job,
+        domain: &Domain,
+        density: &Density,
+        count: usize,
+        (argument, bytes): (&'static str, f64),
+    ) -> Result<Self> {
         let torus = Torus::new(*domain, count.max(1));
         let extent = domain.extent().map(|length| length / torus.frame.spacing());
         let pixels = match *density {
@@ -55,8 +62,8 @@ impl Raster {
             let [least, most] = FINENESS.map(|fineness| (fineness * extent[axis]).ceil().min(limit as f64) as usize);
             pixels[axis].clamp(least, most).max(FEWEST)
         });
-        let bytes = BYTES_PER_CELL * cells[0] as f64 * cells[1] as f64;
-        memory::require(bytes, "count", &format!("{count} points of a density"))?;
+        let bytes = BYTES_PER_CELL * cells[0] as f64 * cells[1] as f64 + bytes * count as f64;
+        memory::require(bytes, argument, &format!("{count} points of a density"))?;
         let mut raster = Self { domain: *domain, cells, density: Vec::new(), spacing: Vec::new() };
         raster.density = raster.sample(job, density, pixels)?;
         let sum: f64 = raster.density.iter().map(|&density| f64::from(density)).sum();

@@ -104,7 +104,7 @@ pub struct Report {
 }
 
 /// The peak memory for a sample and all of its data.
-const BYTES_PER_SAMPLE: f64 = 600.0;
+const BYTES_PER_SAMPLE: f64 = 630.0;
 
 /// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`Points`], and
 /// of any density. The samples are returned in their order, each with the triangle that it is on.

@@ -26,8 +26,12 @@ use crate::dcr::uniform::{
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
 use crate::job::{Context, Job, Progress, chunks};
-use crate::points::Domain;
+use crate::points::{Boundary, Domain};
 use crate::simd::Level;
+
+/// The peak memory for a point and all of its data, in the union and in its class; where it has images.
+const BYTES_PER_POINT: f64 = 520.0;
+const BYTES_PER_MIRRORED_POINT: f64 = 1900.0;
 
 /// The shares of the forces and waves of the union and of the classes. With larger shares for the classes, these
 /// improve by as much as the union gets worse.
@@ -385,7 +389,11 @@ pub fn relax_classes(
         let reason = format!("[{index}] is {}, not below {}", classes[index], Classes::MOST);
         return Err(Error::invalid("classes", reason));
     }
-    require_memory("positions", points.len())?;
+    let bytes = match options.domain.boundary {
+        Boundary::Periodic => BYTES_PER_POINT,
+        Boundary::Bounded => BYTES_PER_MIRRORED_POINT,
+    };
+    require_memory("positions", points.len(), bytes)?;
     let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
     let (relaxed, report) = relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)?;
     let count = classes.iter().max().map_or(0, |&last| last + 1);

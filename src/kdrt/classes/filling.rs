@@ -118,7 +118,7 @@ impl ClassFilling {
     }
 
     /// The approximate number of bytes that a cell takes for each class.
-    pub const BYTES_PER_CELL: f64 = 512.0;
+    pub const BYTES_PER_CELL: f64 = 275.0;
 
     #[inline(always)]
     fn counts(&self) -> [usize; 2] {

@@ -124,26 +124,31 @@ impl Cuts<'_> {
 const ESTIMATE_CHUNK: usize = 1 << 13;
 /// The approximate maximum of the number of pieces on which samples are counted.
 const ESTIMATES: f64 = 1e5;
-/// Peak memory per sample.
-const BYTES_PER_SAMPLE: f64 = 800.0;
+/// Peak memory per sample, where triangles are cut into pieces smaller than the radius; in progressive order; and per
+/// triangle.
+const BYTES_PER_SAMPLE: f64 = 265.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 390.0;
+const BYTES_PER_TRIANGLE: f64 = 60.0;
 
 /// Estimates the number of samples and refuses radii that require more than can be indexed or held. They are counted on
 /// pieces of the surface, each as if it had the radius of its centre: those of the area, and those along parts longer
-/// than the radius.
-pub fn checked_samples(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f64> {
+/// than the radius. For the memory a part has its share, by area, of those along its triangle.
+pub fn checked_samples(job: &Job, mesh: &Mesh, field: &RadiusField, is_ranked: bool) -> Result<f64> {
     // Needles have almost no area: their lengths bound the pieces as well.
     let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
     // Pieces that are shorter than every radius add no information, either.
     let longest = (4.0 * mesh.area() / ESTIMATES).sqrt().max(lengths / ESTIMATES).max(field.all().least);
     let chunks = chunks_of(mesh.triangles().len(), ESTIMATE_CHUNK);
     let estimates = job.map(chunks.len(), |chunk| {
-        let (mut slices, mut estimate) = (Vec::new(), 0.0);
+        let (mut slices, mut estimate) = (Vec::new(), [0.0; 2]);
         for (triangle, area) in mesh.triangles_with_area(chunks.range(chunk)) {
-            let mut count = |piece: &Fragment, shape: &Shape, area: f64| {
-                estimate += expected_samples_of(field.centre(piece, shape), area, shape.longest);
-            };
             let whole = Fragment::whole(triangle);
             let shape = whole.shape(mesh);
+            let mut count = |piece: &Fragment, own: &Shape, part: f64| {
+                let radius = field.centre(piece, own);
+                estimate[0] += expected_samples_of(radius, part, own.longest);
+                estimate[1] += part / area * expected_samples_of(radius, area, shape.longest);
+            };
             if shape.longest <= longest {
                 count(&whole, &shape, area);
             } else {
@@ -155,10 +160,13 @@ pub fn checked_samples(job: &Job, mesh: &Mesh, field: &RadiusField) -> Result<f6
         }
         estimate
     })?;
-    let estimate: f64 = estimates.iter().sum();
+    let [estimate, held] = [0, 1].map(|of: usize| estimates.iter().map(|both| both[of]).sum::<f64>());
     field.check()?;
     let (argument, all) = (field.argument(), field.all());
     let asking = format!("{:?} to {:?} asks for", all.least, all.largest);
-    require_samples(estimate, BYTES_PER_SAMPLE, argument, &asking)?;
+    // What triangles take is told as that of more samples.
+    let each = if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
+    let bytes = held * each + mesh.triangles().len() as f64 * BYTES_PER_TRIANGLE;
+    require_samples(estimate, bytes / estimate.max(1.0), argument, &asking)?;
     Ok(estimate)
 }

@@ -99,7 +99,7 @@ pub fn sample(
             let least = last * field.least();
             check_resolution("density", least, mesh.float_spacing(), "the largest coordinate of the mesh")?;
         }
-        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last))?;
+        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last), is_ordered)?;
         let surface = ScaledSurface { mesh, field, facing, obstacles, last, estimate };
         if !is_ordered {
             let (samples, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), last, &[])?;

@@ -20,13 +20,17 @@ use crate::mesh::Mesh;
 use crate::points::{Points, check_resolution};
 use crate::psp::classes::levels::{GroupLevels, is_ranked};
 use crate::psp::classes::site::Places;
-use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
+use crate::psp::fill::measures::{Measures, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
 use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
 use crate::psp::samples::surface_samples;
 use crate::rng::{Draw, hash};
+
+/// Peak memory for each sample that the classes would have alone; in progressive order.
+const BYTES_PER_SAMPLE: f64 = 105.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 620.0;
 
 /// Samples a mesh with several classes at once.
 ///
@@ -86,7 +90,8 @@ pub fn sample_classes(
     let groups = classes.groups();
     let groups: Vec<_> = groups.iter().map(|members| GroupLevels { places, classes, members, earlier: &[] }).collect();
     let expected: f64 = groups.iter().map(GroupLevels::expected_samples).sum();
-    require_samples(expected, BYTES_PER_SAMPLE, "radii", "they ask for")?;
+    let bytes = if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
+    require_samples(expected, bytes, "radii", "they ask for")?;
     let (mut samples, darts) = context.run(progress, |job| {
         let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
         for (number, group) in (0..).zip(groups) {

@@ -16,12 +16,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use glam::Vec3A;
 
 use crate::error::{Error, Result};
+use crate::given::Given;
 use crate::job::{Job, chunks_of};
 use crate::math::rounded_up;
 use crate::memory;
 use crate::mesh::{Mesh, exact};
 use crate::points::{MAXIMAL_DENSITY, check_radius, check_resolution};
 use crate::psp::fill::extent::Extent;
+use crate::psp::given;
 use crate::simd::{Lanes, Level, Work, run};
 
 /// Triangles in a cluster. The first darts pass more clusters if these are smaller; larger ones need less memory.
@@ -182,11 +184,12 @@ impl Measures {
         DENSITY * mesh.area() / (radius * radius) + self.longer_than(radius) / radius
     }
 
-    /// The same. Refuses a radius that is out of range or requires too many.
-    pub fn checked_samples(&self, mesh: &Mesh, radius: f64) -> Result<f64> {
+    /// The same. Refuses a radius that is out of range or requires too many, of so many bytes each, beside given ones.
+    pub fn checked_samples(&self, mesh: &Mesh, radius: f64, bytes: f64, given: Given<3>) -> Result<f64> {
         check_radius(radius)?;
         let estimate = self.expected_samples(mesh, radius);
-        require_samples(estimate, BYTES_PER_SAMPLE, "radius", &format!("{radius:?} asks for"))?;
+        let bytes = bytes + given::bytes(given) / estimate.max(1.0);
+        require_samples(estimate, bytes, "radius", &format!("{radius:?} asks for"))?;
         check_radius_on(mesh, radius)?;
         Ok(estimate)
     }
@@ -213,9 +216,8 @@ pub fn check_radius_on(mesh: &Mesh, radius: f64) -> Result<()> {
     check_resolution("radius", radius, mesh.float_spacing(), "the largest coordinate of the mesh")
 }
 
-/// Peak memory per sample, twice the measured amount (bunny with three million samples: 110 bytes when a fill starts
-/// from nothing, 145 with an iteration, the returned samples included): scattered samples take more.
-pub const BYTES_PER_SAMPLE: f64 = 300.0;
+/// Peak memory per sample that is filled from nothing, the returned samples included.
+pub const BYTES_PER_SAMPLE: f64 = 126.0;
 
 /// Refuses an argument that is `asking` for more samples than can be indexed, or than memory holds.
 pub fn require_samples(estimate: f64, bytes: f64, argument: &'static str, asking: &str) -> Result<()> {

@@ -16,8 +16,8 @@ pub struct Part {
 /// That a mean is below another mean or a number.
 pub struct Claim {
     what: String,
-    low: Mean,
-    high: Mean,
+    pub low: Mean,
+    pub high: Mean,
 }
 
 impl Claim {
@@ -78,8 +78,11 @@ pub fn tables(parts: &[Part]) -> String {
         let (what, p) = (&claim.what, chance(p));
         _ = writeln!(text, "| {what} | {low} | {n} | {high} | {m} | {t} | {p} | {verdict} |");
     }
-    text += "\nWhat must hold exactly, in every set:\n\n| property | found | |\n|---|---|---|\n";
-    for fact in parts.iter().flat_map(|part| &part.facts) {
+    let mut facts = parts.iter().flat_map(|part| &part.facts).peekable();
+    if facts.peek().is_some() {
+        text += "\nWhat must hold exactly, in every set:\n\n| property | found | |\n|---|---|---|\n";
+    }
+    for fact in facts {
         _ = writeln!(text, "| {} | {} | {} |", fact.what, fact.found, verdict::verdict(fact.is_met));
     }
     text

@@ -97,3 +97,14 @@ fn check_chains(page: &str) {
     // All at once or one after the other: the same set.
     assert_eq!(rows[0][1], rows[5][1]);
 }
+
+#[test]
+fn a_quick_page_of_pixels_has_every_sampler_and_claims_that_follow() {
+    let page = Page::quick("pixels");
+    assert_eq!(page.check_verdicts(8).unknown, [""; 0]);
+    let rows = page.text.lines().filter(|line| line.starts_with("| ") && line.matches('±').count() == 2);
+    let names: Vec<_> = rows.filter_map(|row| row.split(" | ").next()?.strip_prefix("| ")).collect();
+    let samplers =
+        ["random", "stratified", "Sobol, Owen-scrambled", "KDRT tile", "DCR tile", "KDRT image", "DCR image"];
+    assert!(samplers.iter().all(|name| names.iter().filter(|row| row == &name).count() == 4), "{names:?}");
+}
