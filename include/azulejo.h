@@ -25,6 +25,7 @@
  *   samples of a rectangle                        azulejo_kdrt_sample
  *   a plane without end, part by part             azulejo_kdrt_create, azulejo_kdrt_window
  *   more samples than memory holds                azulejo_kdrt_stream
+ *   a plane under a brush: erase, refill, undo    azulejo_plane_create, _erase, _refill
  *   a rectangle with a density, such as an image  azulejo_dcr_scatter, azulejo_dcr_relax_density
  *   samples of a mesh                             azulejo_psp_sample
  *   a mesh whose radius or density varies         azulejo_psp_adaptive_sample, _with_density
@@ -64,15 +65,16 @@
  *   of a code. No exception leaves the library.
  *   Nothing is printed to stdout; a panic prints to stderr.
  *
- * Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
- *   azulejo_selection, azulejo_spectrum and azulejo_differences are made by the library. The
- *   caller owns them and frees each with its own _free function, which allows NULL. They may be
- *   freed in any order: a handle keeps what it needs of another one. Accessors return 0 or NULL
- *   for NULL. Pointers into a handle are valid until the handle is freed. A handle begins with a
- *   tag, which is overwritten when it is freed. A handle of another type is always refused. A
- *   freed one is refused as long as its memory has not been used again; that is no promise, as
- *   the allocator may have given the memory away or back to the system. Accessors return 0 or
- *   NULL for what is refused, _free functions leave it as it is, and both set the last error.
+ * Handles. azulejo_context, azulejo_kdrt, azulejo_plane, azulejo_mesh, azulejo_psp,
+ *   azulejo_points, azulejo_selection, azulejo_spectrum and azulejo_differences are made by
+ *   the library. The caller owns them and frees each with its own _free function, which
+ *   allows NULL. They may be freed in any order: a handle keeps what it needs of another
+ *   one. Accessors return 0 or NULL for NULL. Pointers into a handle are valid until the
+ *   handle is freed. A handle begins with a tag, which is overwritten when it is freed. A
+ *   handle of another type is always refused. A freed one is refused as long as its memory
+ *   has not been used again; that is no promise, as the allocator may have given the memory
+ *   away or back to the system. Accessors return 0 or NULL for what is refused, _free
+ *   functions leave it as it is, and both set the last error.
  *
  * Pointers. An argument may be NULL only where its text says so. Arrays are packed, and are read
  *   during the call only. The pointer of an empty array may be NULL, with the count 0. Pointers
@@ -105,7 +107,7 @@
  *   returns AZULEJO_ERROR_CANCELLED and writes no output. The exceptions are azulejo_dcr_relax,
  *   azulejo_dcr_relax_density and azulejo_dcr_surface_relax: they succeed with the state after the
  *   last whole step, and say so in their report. azulejo_psp_create and calls without a context or
- *   a psp handle do not report progress.
+ *   a psp or plane handle do not report progress.
  *
  * Callbacks. A callback may call the library, also with the context that is calling it, unless its
  *   type says otherwise. It must return: an exception that leaves it ends the process, a longjmp
@@ -115,13 +117,14 @@
  *
  * Threads. Every function may be called from any thread at any time. Several threads may use one
  *   context at once, make windows of one plane, and read one mesh, set of points, selection,
- *   spectrum or differences. A psp handle serves one changing call at a time and refuses a second
- *   one with AZULEJO_ERROR_BUSY. A handle must not be freed while another thread uses it. The last
- *   error belongs to the thread that made the call. After fork, in the child, contexts with more
- *   than one thread and psp handles made with them return AZULEJO_ERROR_THREADS, since their
- *   threads exist in the parent only; they can still be freed. Planes, contexts of one thread, and
- *   contexts made after the fork work. Embree's own threads are lost as well: a process that used
- *   Embree before it forked should use AZULEJO_ENGINE_RASTERISER in the child.
+ *   spectrum or differences. A psp or plane handle serves one changing call at a time and
+ *   refuses a second one with AZULEJO_ERROR_BUSY. A handle must not be freed while another
+ *   thread uses it. The last error belongs to the thread that made the call. After fork, in the
+ *   child, contexts with more than one thread, and psp and plane handles made with them, return
+ *   AZULEJO_ERROR_THREADS, since their threads exist in the parent only; they can still be
+ *   freed. Windows of planes, contexts of one thread, and contexts made after the fork work.
+ *   Embree's own threads are lost as well: a process that used Embree before it forked should
+ *   use AZULEJO_ENGINE_RASTERISER in the child.
  *
  * Determinism. The same options and seed give the same bytes, for every number of threads and
  *   whatever was called before, on every processor and system: elementary functions are the

@@ -246,13 +246,37 @@ const float *azulejo_points_ranks(const azulejo_points *points);
 /// NULL for NULL, an empty set and sets made without classes.
 const uint32_t *azulejo_points_classes(const azulejo_points *points);
 
-/// The ids of the samples of a psp handle that has been edited (azulejo_psp_erase): a sample keeps
-/// its id as long as it stands, and no other one ever gets it. NULL for NULL, an empty set and all
-/// other sets.
+/// The ids of the samples of a set that is edited (azulejo_plane_erase, azulejo_psp_erase): a
+/// sample keeps its id as long as it stands, and no other one ever gets it. NULL for NULL, an empty
+/// set and all other sets.
 const uint64_t *azulejo_points_ids(const azulejo_points *points);
 
 /// Frees the set with all its arrays. NULL is allowed.
 void azulejo_points_free(azulejo_points *points);
+
+/// A part of space: the points that lie in a box and within a distance of a centre, the boundary
+/// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
+/// for a box, or all four for what they have in common. The plane lies at the height 0: there a
+/// ball is a disk, and `min` and `max` need x and y alone.
+typedef struct azulejo_region {
+    /// The size of the struct in bytes; set by the _init function.
+    uint32_t struct_size;
+    /// Must be 0.
+    uint32_t reserved;
+    /// The lowest coordinates of the box; default minus infinity.
+    double min[3];
+    /// The highest coordinates of the box, not below `min`; default infinity.
+    double max[3];
+    /// The centre of the ball, finite; default 0.
+    double centre[3];
+    /// The radius of the ball, 0 or more; default infinity.
+    double radius;
+} azulejo_region;
+
+/// Writes the defaults: all of space. `struct_size` is sizeof *region.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+azulejo_status azulejo_region_init(azulejo_region *region, size_t struct_size);
 
 /// No set has more classes.
 #define AZULEJO_MAX_CLASSES 16

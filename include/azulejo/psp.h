@@ -319,29 +319,6 @@ azulejo_status azulejo_psp_sample_classes(const azulejo_context *context,
                                           azulejo_points **out,
                                           azulejo_classes_report *report);
 
-/// A part of space: the points that lie in a box and within a distance of a centre, the boundary
-/// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
-/// for a box, or all four for what they have in common.
-typedef struct azulejo_region {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Must be 0.
-    uint32_t reserved;
-    /// The lowest coordinates of the box; default minus infinity.
-    double min[3];
-    /// The highest coordinates of the box, not below `min`; default infinity.
-    double max[3];
-    /// The centre of the ball, finite; default 0.
-    double centre[3];
-    /// The radius of the ball, 0 or more; default infinity.
-    double radius;
-} azulejo_region;
-
-/// Writes the defaults: all of space. `struct_size` is sizeof *region.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
-azulejo_status azulejo_region_init(azulejo_region *region, size_t struct_size);
-
 /// Erases the samples of a set in a region. From the first edit on the set can be filled again
 /// (azulejo_psp_refill, azulejo_psp_fill) but makes no more iterations, and every sample has an id
 /// (azulejo_points_ids): 0, 1, 2 and so on for those that stand then, in their order. A sample
