@@ -271,7 +271,7 @@ public:
         return array(azulejo_points_classes(get()), 1);
     }
     Span<const std::uint32_t> classes() const && = delete;
-    /// The id of each sample of a Psp that has been edited; empty for other sets. See
+    /// The id of each sample of a set that is edited; empty for other sets. See
     /// azulejo_points_ids.
     Span<const std::uint64_t> ids() const & noexcept { return array(azulejo_points_ids(get()), 1); }
     Span<const std::uint64_t> ids() const && = delete;
@@ -752,6 +752,7 @@ public:
     }
 
 private:
+    friend class Plane;
     friend class Psp;
 
     std::shared_ptr<Progress> progress_;
@@ -1043,6 +1044,7 @@ public:
     std::uint32_t num_threads() const noexcept { return azulejo_context_num_threads(get()); }
 
 private:
+    friend class Plane;
     friend class Psp;
 
     std::shared_ptr<Progress> progress_;
@@ -1295,7 +1297,7 @@ public:
     double area() const noexcept { return azulejo_mesh_area(get()); }
 };
 
-// ---- Psp ---------------------------------------------------------------------------------------
+// ---- Regions -----------------------------------------------------------------------------------
 
 /// A part of space, at first all of it; see azulejo_region.
 struct Region : azulejo_region {
@@ -1316,6 +1318,144 @@ struct Region : azulejo_region {
         return region;
     }
 };
+
+namespace detail {
+
+/// Refuses given samples that are not whole points, and clearances that are not one for each.
+template <class Positions>
+Status check_given(const Positions &positions, Span<const double> clearances) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    if (clearances.size() == 0 || clearances.size() == positions.size()) return Status();
+    return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                  "clearances: there are " + std::to_string(clearances.size()) + ", and " +
+                      std::to_string(positions.size()) + " positions");
+}
+
+} // namespace detail
+
+// ---- Plane -------------------------------------------------------------------------------------
+
+/// A set of the plane that is edited; see azulejo_plane. It keeps what it needs of the context and
+/// the options, with their progress functions.
+class Plane : public Owner<azulejo_plane, azulejo_plane_free> {
+public:
+    using Owner::Owner;
+    Plane() noexcept = default;
+
+    /// The set of kdrt_sample or, if there are positions, of these; see azulejo_plane_create.
+    static Status try_create(const Context &context, const KdrtOptions &options,
+                             const PlanePoints &positions, Plane &out) {
+        if (Status s = positions.check("positions"); !s.ok()) return s;
+        Status status = detail::make(out, [&](auto **plane) {
+            return azulejo_plane_create(context.get(), &options, positions.data(),
+                                        positions.size(), plane);
+        });
+        if (status.ok()) {
+            out.context_progress_ = context.progress_;
+            out.progress_ = options.progress_;
+        }
+        return status;
+    }
+
+    /// Erases the samples in a region; see azulejo_plane_erase.
+    Status try_erase(const Region &region, Points &erased) {
+        return detail::make(erased,
+                            [&](auto **p) { return azulejo_plane_erase(get(), &region, p); });
+    }
+
+    /// Erases samples by their ids; see azulejo_plane_erase_ids.
+    Status try_erase(Span<const std::uint64_t> ids, Points &erased) {
+        return detail::make(erased, [&](auto **points) {
+            return azulejo_plane_erase_ids(get(), ids.data(), ids.size(), points);
+        });
+    }
+
+    /// Puts erased samples back; see azulejo_plane_restore.
+    Status try_restore(const Points &points) {
+        return detail::run([&] { return azulejo_plane_restore(get(), points.get()); });
+    }
+
+    /// Adds given samples; see azulejo_plane_add_given. `clearances`, one for each, may be empty:
+    /// all have the radius of the set.
+    Status try_add_given(const PlanePoints &positions, Span<const double> clearances,
+                         std::uint64_t &first_id, Points &erased) {
+        if (Status s = detail::check_given(positions, clearances); !s.ok()) return s;
+        return detail::make(erased, [&](auto **points) {
+            return azulejo_plane_add_given(get(), positions.data(),
+                                           clearances.size() == 0 ? nullptr : clearances.data(),
+                                           positions.size(), &first_id, points);
+        });
+    }
+
+    /// Removes given samples by their ids; see azulejo_plane_remove_given.
+    Status try_remove_given(Span<const std::uint64_t> ids) {
+        return detail::run(
+            [&] { return azulejo_plane_remove_given(get(), ids.data(), ids.size()); });
+    }
+
+    /// Fills the gaps that edits have left; see azulejo_plane_refill. `report` may be null.
+    Status try_refill(std::uint64_t seed, Points &added, KdrtReport *report = nullptr) {
+        return detail::make(added, [&](auto **points) {
+            return azulejo_plane_refill(get(), seed, points, report);
+        });
+    }
+
+    /// A copy of the set as it is now; see azulejo_plane_points.
+    Status try_points(Points &out) const {
+        return detail::make(out,
+                            [&](auto **points) { return azulejo_plane_points(get(), points); });
+    }
+
+#ifndef AZULEJO_NO_EXCEPTIONS
+    Plane(const Context &context, const KdrtOptions &options, const PlanePoints &positions = {}) {
+        check(try_create(context, options, positions, *this));
+    }
+
+    Points erase(const Region &region) {
+        Points erased;
+        check(try_erase(region, erased));
+        return erased;
+    }
+
+    Points erase(Span<const std::uint64_t> ids) {
+        Points erased;
+        check(try_erase(ids, erased));
+        return erased;
+    }
+
+    void restore(const Points &points) { check(try_restore(points)); }
+
+    /// As Psp::add_given.
+    std::uint64_t add_given(const PlanePoints &positions, Span<const double> clearances = {},
+                            Points *erased = nullptr) {
+        Points points;
+        std::uint64_t first_id = 0;
+        check(try_add_given(positions, clearances, first_id, points));
+        if (erased != nullptr) *erased = std::move(points);
+        return first_id;
+    }
+
+    void remove_given(Span<const std::uint64_t> ids) { check(try_remove_given(ids)); }
+
+    Points refill(std::uint64_t seed, KdrtReport *report = nullptr) {
+        Points added;
+        check(try_refill(seed, added, report));
+        return added;
+    }
+
+    Points points() const {
+        Points points;
+        check(try_points(points));
+        return points;
+    }
+#endif
+
+private:
+    std::shared_ptr<Progress> context_progress_;
+    std::shared_ptr<Progress> progress_;
+};
+
+// ---- Psp ---------------------------------------------------------------------------------------
 
 /// A set of samples on a mesh that grows and can be edited; see azulejo_psp. It keeps what it needs
 /// of the context, the mesh and the options, with their progress functions.
@@ -1368,12 +1508,7 @@ public:
     /// have the radius of the set.
     Status try_add_given(const SpacePoints &positions, Span<const double> clearances,
                          std::uint64_t &first_id, Points &erased) {
-        if (Status s = positions.check("positions"); !s.ok()) return s;
-        if (clearances.size() != 0 && clearances.size() != positions.size()) {
-            return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
-                          "clearances: there are " + std::to_string(clearances.size()) + ", and " +
-                              std::to_string(positions.size()) + " positions");
-        }
+        if (Status s = detail::check_given(positions, clearances); !s.ok()) return s;
         return detail::make(erased, [&](auto **points) {
             return azulejo_psp_add_given(get(), positions.data(),
                                          clearances.size() == 0 ? nullptr : clearances.data(),

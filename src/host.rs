@@ -9,7 +9,7 @@ pub(crate) fn process_id() -> u32 {
 }
 
 /// Wall time in seconds, of one stage after another; 0 where there is no clock.
-pub(crate) struct Stopwatch(Option<Instant>);
+pub struct Stopwatch(Option<Instant>);
 
 impl Stopwatch {
     pub fn start() -> Self {

@@ -140,7 +140,7 @@ impl Chunks {
 
 /// A call in progress, or a part of one.
 #[derive(Clone, Copy)]
-pub(crate) struct Job<'a> {
+pub struct Job<'a> {
     context: &'a Context,
     progress: Option<&'a Progress<'a>>,
     from: f64,

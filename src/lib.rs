@@ -44,6 +44,7 @@ pub mod analysis;
 mod check;
 mod classes;
 pub mod dcr;
+mod editable;
 mod error;
 mod geometry;
 mod given;
@@ -69,6 +70,7 @@ pub mod thin;
 pub mod trace;
 
 pub use classes::Classes;
+pub use editable::EditableSet;
 pub use error::{Error, Result};
 pub use given::Given;
 pub use job::{Context, Progress};

@@ -54,6 +54,8 @@ pub(crate) enum Draw {
     Level,
     /// The groups of several classes: KDRT and PSP.
     Group,
+    /// KDRT: the filling of gaps in a set that is edited.
+    Edit,
 }
 
 /// The stream of random numbers of one place.

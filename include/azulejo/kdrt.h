@@ -1,5 +1,5 @@
 /*
- * KDRT: maximal Poisson-disk sets in the plane, whole, in windows and in streams.
+ * KDRT: maximal Poisson-disk sets in the plane, whole, in windows and in streams, and edited.
  *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
@@ -533,6 +533,148 @@ azulejo_status azulejo_kdrt_merge(const azulejo_context *context,
                                   size_t fixed_count,
                                   azulejo_points **out,
                                   azulejo_kdrt_merge_report *report);
+
+/// A set of the plane that is edited. It keeps its context, which may be freed before it.
+///
+/// One call at a time may change it; another one, from another thread or from the progress
+/// callback, is refused with AZULEJO_ERROR_BUSY. Several threads may copy its points at once.
+typedef struct azulejo_plane azulejo_plane;
+
+/// Makes a set of the plane that is edited. Its samples have ids (azulejo_points_ids), at first 0,
+/// 1, 2 and so on in their order. A sample keeps its id and all its bytes until it is erased, and
+/// no other sample ever gets that id.
+///
+/// options: `count`, `order` and `measure_covering_radius` must have their defaults, and with
+/// positions `leaf_size` too. Given samples have the ids 0, 1, 2 and so on, independent of those of
+/// the samples. The handle keeps the progress callback for all its calls.
+///
+/// positions: x y each, any floats of the domain, no two closer than the radius and none closer to
+/// a given sample than its clearance: a set of an earlier call, or of the host. The first
+/// azulejo_plane_refill looks for gaps everywhere, and takes as long as that.
+///
+/// count: the number of positions. 0: it begins with the set of azulejo_kdrt_sample.
+///
+/// out: the handle, to be freed with azulejo_plane_free.
+///
+/// O(samples) time, and about 40 bytes of memory per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+azulejo_status azulejo_plane_create(const azulejo_context *context,
+                                    const azulejo_kdrt_options *options,
+                                    const float *positions,
+                                    size_t count,
+                                    azulejo_plane **out);
+
+/// Copies the set in its present state, by rising ids. Several threads may do so at once.
+///
+/// out: the samples, x y each, with their ids, to be freed with azulejo_points_free.
+///
+/// O(samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
+/// handle.
+azulejo_status azulejo_plane_points(const azulejo_plane *plane, azulejo_points **out);
+
+/// Erases the samples in a region. On a torus a sample lies in it if one of its images lies in the
+/// box, and one in the ball, so that a brush may reach over the seam.
+///
+/// To undo a stroke of a brush, erase what azulejo_plane_refill added, by azulejo_plane_erase_ids,
+/// and give back what this call erased, by azulejo_plane_restore: the set is then as before, bit
+/// for bit. To redo it, erase the same region again and refill with the same seed.
+///
+/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
+/// NULL if they are not wanted.
+///
+/// O(samples in the tiles of 12 to 24 radii that the region touches).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
+/// AZULEJO_ERROR_BUSY while another call uses the handle.
+azulejo_status azulejo_plane_erase(azulejo_plane *plane,
+                                   const azulejo_region *region,
+                                   azulejo_points **erased);
+
+/// Erases samples by their ids.
+///
+/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+///
+/// erased: as in azulejo_plane_erase.
+///
+/// O(samples in the tiles of 12 to 24 radii that they are in).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
+azulejo_status azulejo_plane_erase_ids(azulejo_plane *plane,
+                                       const uint64_t *ids,
+                                       size_t count,
+                                       azulejo_points **erased);
+
+/// Puts samples back that were erased from the set, with their ids and all their bytes.
+///
+/// points: from an edit of this handle; not changed, and still to be freed.
+///
+/// O(points + samples in the tiles of 12 to 24 radii around them).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
+/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
+/// another call uses the handle. Nothing is put back then.
+azulejo_status azulejo_plane_restore(azulejo_plane *plane, const azulejo_points *points);
+
+/// Adds given samples to those of the options. Samples of the set that are closer to one than its
+/// clearance are erased.
+///
+/// positions: x y each. clearances: one for each, finite and 0 or more; NULL: the radius of the
+/// set.
+///
+/// first_id: the id of the first of them, which the others follow; NULL if it is not wanted.
+///
+/// erased: as in azulejo_plane_erase.
+///
+/// O(samples in the tiles of 12 to 24 radii that the clearances touch), for each.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
+/// Nothing is changed then.
+azulejo_status azulejo_plane_add_given(azulejo_plane *plane,
+                                       const float *positions,
+                                       const double *clearances,
+                                       size_t count,
+                                       uint64_t *first_id,
+                                       azulejo_points **erased);
+
+/// Removes given samples by their ids: what they covered is filled by the next
+/// azulejo_plane_refill.
+///
+/// O(given samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
+azulejo_status azulejo_plane_remove_given(azulejo_plane *plane,
+                                          const uint64_t *ids,
+                                          size_t count);
+
+/// Makes the set maximal again after edits, but looks only where samples were erased or given
+/// samples removed since the last refill. All samples that stand stay as they are.
+///
+/// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
+/// to a radius outside a region that was erased, since that is how far the erased samples covered
+/// the plane. Every point of the domain is then within the radius of a sample or the clearance of a
+/// given one, up to 6 float spacings at the largest coordinate.
+///
+/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
+/// if they are not wanted.
+///
+/// report: the set after the call, or NULL; `covering_radius` is -1.
+///
+/// O(area in and around the edited regions + given samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
+/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
+azulejo_status azulejo_plane_refill(azulejo_plane *plane,
+                                    uint64_t seed,
+                                    azulejo_points **added,
+                                    azulejo_kdrt_report *report);
+
+/// Frees a set. NULL is allowed.
+void azulejo_plane_free(azulejo_plane *plane);
 
 /// Options of azulejo_maximal_sample.
 typedef struct azulejo_maximal_options {

@@ -9,9 +9,9 @@
 //! the plane (`tiling.rs`) can be made without the rest; this is how threads share the work, and how any part of a
 //! plane can be made alone (`plane.rs`). An order whose prefixes are well spread (`progressive.rs`) and several classes
 //! (`classes/`) are layers, each filled around those before (`stack.rs`); a plane that is kept remembers what its windows
-//! made of them (`cache.rs`). `count.rs` takes a number of samples instead
-//! of a radius; sets that were made separately are merged into one by the same two steps (`merge.rs`). Each file states
-//! its departures from the thesis.
+//! made of them (`cache.rs`). `count.rs` takes a number of samples instead of a radius; sets that were made separately
+//! are merged into one by the same two steps (`merge.rs`); any set can be edited afterwards (`editable.rs`,
+//! `refill.rs`). Each file states its departures from the thesis.
 
 mod blocks;
 mod cache;
@@ -20,21 +20,25 @@ mod clip;
 mod conquer;
 mod count;
 mod divide;
+mod editable;
 mod fill;
 mod merge;
 mod options;
 mod plane;
 mod progressive;
+mod refill;
 mod region;
 mod relative;
 mod stack;
 #[cfg(feature = "stages")]
 #[doc(hidden)]
 pub mod stages;
+mod tiles;
 mod tiling;
 
 pub use crate::order::{DEFAULT_QUOTIENT, QUOTIENTS};
 pub use count::{CountOptions, CountReport, sample_count};
+pub use editable::EditableSet;
 pub use merge::{MergeOptions, MergeReport, Piece, merge};
 pub use options::{DEFAULT_LEAF_SIZE, Kind, MIN_LEAF_SIZE, Options, Progressive};
 pub use plane::{Plane, sample, sample_window};

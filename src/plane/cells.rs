@@ -28,11 +28,21 @@ pub(crate) struct CellGrid {
     /// The coordinates of the samples by rows of cells, margins included, and as many cells more as are read beyond the
     /// end of a row.
     samples: [Vec<i32>; 2],
-    /// The numbers of cells and of lattice points of a torus that the grid covers as a whole.
-    torus: Option<[[i32; 2]; 2]>,
+    torus: Option<Torus>,
     vectors: Level,
     separation: Separation,
     obstacles: Obstacles,
+}
+
+/// The axes along which a grid covers the whole of a torus.
+#[derive(Clone, Copy)]
+struct Torus {
+    /// The number of cells of the grid.
+    cells: [i32; 2],
+    /// The period in lattice points along those axes.
+    size: [i32; 2],
+    /// 1 along those axes, else 0: the number of images on each side.
+    turns: [i32; 2],
 }
 
 impl CellGrid {
@@ -64,8 +74,15 @@ impl CellGrid {
     /// The empty cells of a whole torus of the size of `axes`.
     pub fn torus(axes: &[CellAxis; 2], separation: Separation) -> Self {
         let size = [0, 1].map(|axis: usize| axes[axis].size);
-        let torus = Some([[0, 1].map(|axis: usize| axes[axis].count()), size]);
-        Self { torus, ..Self::new(axes, &Rect { min: [0; 2], max: size }, separation) }
+        Self::wrapping(axes, &Rect { min: [0; 2], max: size }, [true; 2], separation)
+    }
+
+    /// [`CellGrid::new`] for a part of a torus that wraps along some axes, of which `rect` has the first period.
+    pub fn wrapping(axes: &[CellAxis; 2], rect: &Rect, wraps: [bool; 2], separation: Separation) -> Self {
+        let grid = Self::new(axes, rect, separation);
+        let size = [0, 1].map(|axis: usize| if wraps[axis] { axes[axis].size } else { i32::MAX });
+        let torus = Torus { cells: grid.counts(), size, turns: wraps.map(i32::from) };
+        Self { torus: (wraps != [false; 2]).then_some(torus), ..grid }
     }
 
     /// Excludes samples from disks, before there are any samples. Disks that do not meet the cells have no effect.
@@ -282,8 +299,8 @@ impl CellGrid {
     pub fn insert(&mut self, cell: [i32; 2], point: [i32; 2]) {
         debug_assert!(self.rect(cell).contains(point) && self.sample(cell).is_none());
         self.place(cell, point);
-        if let Some([cells, size]) = self.torus {
-            self.insert_images(cell, point, cells, size);
+        if let Some(torus) = self.torus {
+            self.insert_images(cell, point, torus);
         }
     }
 
@@ -295,12 +312,12 @@ impl CellGrid {
     }
 
     /// Adds the images of a sample of a torus that lie in the margin.
-    fn insert_images(&mut self, cell: [i32; 2], point: [i32; 2], cells: [i32; 2], size: [i32; 2]) {
+    fn insert_images(&mut self, cell: [i32; 2], point: [i32; 2], Torus { cells, size, turns }: Torus) {
         let inside = (0..2).all(|axis| (self.margin[axis]..cells[axis] - self.margin[axis]).contains(&cell[axis]));
         if inside {
             return;
         }
-        for turns in (-1..=1).flat_map(|y| (-1..=1).map(move |x| [x, y])) {
+        for turns in (-turns[1]..=turns[1]).flat_map(|y| (-turns[0]..=turns[0]).map(move |x| [x, y])) {
             let image = [0, 1].map(|axis: usize| cell[axis] + turns[axis] * cells[axis]);
             if (0..2).all(|axis| (-self.margin[axis]..cells[axis] + self.margin[axis]).contains(&image[axis])) {
                 self.place(image, [0, 1].map(|axis: usize| point[axis] + turns[axis] * size[axis]));
@@ -358,7 +375,7 @@ impl CellGrid {
     #[cfg(test)]
     pub fn sanity_check(&self) {
         let ([columns, rows], mut memory) = (self.counts(), Vec::new());
-        let size = self.torus.map_or([i32::MAX; 2], |[_, size]| size);
+        let size = self.torus.map_or([i32::MAX; 2], |torus| torus.size);
         for cell in (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])) {
             let Some(sample) = self.sample(cell) else { continue };
             assert!(self.rect(cell).contains(sample), "{sample:?} is not in its cell {cell:?}");

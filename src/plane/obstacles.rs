@@ -155,11 +155,7 @@ impl GivenDisks {
     pub fn new(domain: &Domain, lattice: &Lattice, radius: f64, given: &Given<2>) -> Self {
         let mut disks: Vec<Disk> = (0..given.positions.len())
             .filter(|&index| given.clearance(index, radius) > 0.0)
-            .map(|index| {
-                let clearance = given.clearance(index, radius) / lattice.unit();
-                let place = lattice.place(domain, given.positions[index]);
-                Disk { centre: place, radius: clearance * (1.0 + RELATIVE) + ABSOLUTE + lattice.short(domain) }
-            })
+            .map(|index| Disk::around(domain, lattice, given.positions[index], given.clearance(index, radius)))
             .collect();
         disks.sort_unstable_by(|a, b| a.radius.total_cmp(&b.radius));
         let is_same = |a: &Disk, b: &Disk| octave(a.radius) == octave(b.radius);
@@ -192,6 +188,14 @@ impl GivenDisks {
             }
         }
         near
+    }
+}
+
+impl Disk {
+    /// The disk of a position with a clearance, on a torus in its first period.
+    pub fn around(domain: &Domain, lattice: &Lattice, position: [f32; 2], clearance: f64) -> Self {
+        let radius = clearance / lattice.unit() * (1.0 + RELATIVE) + ABSOLUTE + lattice.short(domain);
+        Self { centre: lattice.place(domain, position), radius }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::memory;
 use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, finest_radius};
-use crate::psp::editable::EditableSet;
+use crate::psp::editable::{EditableSet, OnMesh};
 use crate::psp::fill::FillOptions;
 use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
 use crate::psp::fill::uniform::Surface;
@@ -114,9 +114,8 @@ impl Psp {
     /// have its given samples. No more iterations can be made. O(samples).
     pub fn into_editable(self) -> EditableSet {
         let Self { mesh, options, obstacles, facing, samples, is_maximal, measures, .. } = self;
-        let mut set = EditableSet::new(mesh, measures, options.radius, facing, options.seed);
-        set.begin(samples.into_samples(), obstacles, is_maximal);
-        set
+        let ground = OnMesh::new(mesh, measures, options.radius, facing);
+        EditableSet::begin(ground, options.seed, samples.into_samples(), obstacles, is_maximal)
     }
 
     /// A copy of the samples, in the order in which they were accepted.

@@ -23,6 +23,7 @@ mod dcr_starts;
 mod dcr_thesis;
 mod differential;
 mod editable;
+mod editable_plane;
 #[cfg(feature = "embree")]
 mod embree_traces;
 mod given;

@@ -13,10 +13,10 @@ use crate::common::windows::{part_of, random_window};
 use crate::common::{BOUNDARIES, domain, find_conflict, float_spacing, hard_domains};
 
 /// Positions with their clearances.
-type Set = (Vec<[f32; 2]>, Vec<f64>);
+pub type Set = (Vec<[f32; 2]>, Vec<f64>);
 
 /// What is wrong with a set around given samples, if anything is.
-fn fault(domain: &Domain, radius: f64, given: &Set, samples: &[[f32; 2]]) -> Option<String> {
+pub fn fault(domain: &Domain, radius: f64, given: &Set, samples: &[[f32; 2]]) -> Option<String> {
     if let Some(pair) = find_conflict(domain, radius, samples) {
         return Some(format!("{pair:?} are closer than the radius {radius}"));
     }

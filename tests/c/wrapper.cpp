@@ -586,6 +586,36 @@ void classes_of_planes() {
                  [&] { azulejo::Kdrt kept(context, azulejo::KdrtOptions(), torn); }));
 }
 
+void edited_planes() {
+    const azulejo::Context context(1);
+    azulejo::KdrtOptions options;
+    options.radius = 0.02;
+    azulejo::Plane plane(context, options);
+    const azulejo::Points before = plane.points();
+    const azulejo::Points erased = plane.erase(azulejo::Region::ball({0, 0.5, 0}, 0.1));
+    azulejo::KdrtReport report;
+    const azulejo::Points added = plane.refill(3, &report);
+    CHECK(erased.size() > 20 && added.size() > 20 && report.samples == plane.points().size());
+    CHECK(plane.erase(added.ids()).size() == added.size());
+    plane.restore(erased);
+    const azulejo::Points after = plane.points();
+    CHECK(std::equal(after.ids().begin(), after.ids().end(), before.ids().begin(), before.ids().end()));
+    CHECK(std::equal(after.positions().begin(), after.positions().end(), before.positions().begin()));
+
+    const std::vector<float> house = {0.5F, 0.5F};
+    const std::vector<double> clearances = {0.2};
+    azulejo::Points gone;
+    const std::uint64_t id = plane.add_given(house, clearances, &gone);
+    CHECK(id == 0 && gone.size() > 100);
+    const std::vector<std::uint64_t> ids = {id};
+    plane.remove_given(ids);
+    const std::vector<double> torn = {0.2, 0.3};
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "clearances: there are 2, and 1 positions",
+                 [&] { plane.add_given(house, torn); }));
+    const azulejo::Plane placed(context, options, house);
+    CHECK(placed.points().size() == 1);
+}
+
 int main() {
     spans();
     errors();
@@ -604,5 +634,6 @@ int main() {
     random_numbers();
     given();
     classes_of_planes();
+    edited_planes();
     return finish();
 }

@@ -26,7 +26,7 @@ pub(crate) trait Entry: Element + Copy {
     /// The name of the elements in messages.
     const WHAT: &str;
     /// The largest entry, where whole numbers are converted; the smallest is 0.
-    const MOST: Option<u32> = None;
+    const MOST: Option<u64> = None;
 }
 
 impl Entry for f32 {
@@ -42,7 +42,13 @@ impl Entry for f64 {
 impl Entry for u32 {
     const KINDS: &str = "iu";
     const WHAT: &str = "whole numbers";
-    const MOST: Option<u32> = Some(u32::MAX);
+    const MOST: Option<u64> = Some(u32::MAX as u64);
+}
+
+impl Entry for u64 {
+    const KINDS: &str = "iu";
+    const WHAT: &str = "whole numbers";
+    const MOST: Option<u64> = Some(u64::MAX);
 }
 
 impl Entry for bool {

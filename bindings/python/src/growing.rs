@@ -1,4 +1,4 @@
-//! Sets on meshes that grow, call by call.
+//! Sets on meshes that grow, call by call, and are edited.
 
 use std::sync::{RwLock, TryLockError};
 
@@ -8,7 +8,8 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use crate::argument::natural;
-use crate::array::GivenArrays;
+use crate::array::{Array, GivenArrays};
+use crate::edit::region;
 use crate::error::raised;
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -21,22 +22,69 @@ use crate::watch::Watch;
 /// mesh, radius, seed, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Psp {
-    state: RwLock<psp::Psp>,
+    state: RwLock<State>,
+}
+
+/// A set that grows, until its first edit.
+enum State {
+    Growing(psp::Psp),
+    Edited(psp::EditableSet),
+    /// While one becomes the other.
+    Between,
+}
+
+impl State {
+    /// The set, to be edited.
+    fn editable(&mut self) -> &mut psp::EditableSet {
+        *self = match std::mem::replace(self, Self::Between) {
+            Self::Growing(psp) => Self::Edited(psp.into_editable()),
+            other => other,
+        };
+        match self {
+            Self::Edited(set) => set,
+            _ => unreachable!("a panic between the two poisons the lock"),
+        }
+    }
+
+    fn samples(&self) -> azulejo_core::Points<3> {
+        match self {
+            Self::Growing(psp) => psp.samples(),
+            Self::Edited(set) => set.samples(),
+            Self::Between => unreachable!("a panic between the two poisons the lock"),
+        }
+    }
 }
 
 impl Psp {
     fn change(
         &self,
         watch: Watch,
-        step: impl FnOnce(&mut psp::Psp, &Context, Option<&Progress>) -> Result<psp::Report, Error> + Send,
+        step: impl FnOnce(&mut State, &Context, Option<&Progress>) -> Result<psp::Report, Error> + Send,
     ) -> PyResult<PspReport> {
         let mut state = self.state.try_write().map_err(|error| locked(&error))?;
         let state = &mut *state;
         Ok(watch.run(|context, progress| step(state, context, progress))?.into())
     }
+
+    /// Makes an edit without the interpreter's lock.
+    fn edit<T: Send>(
+        &self,
+        py: Python<'_>,
+        step: impl FnOnce(&mut psp::EditableSet) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        let mut state = self.state.try_write().map_err(|error| locked(&error))?;
+        let state = &mut *state;
+        py.detach(|| step(state.editable())).map_err(raised)
+    }
 }
 
-fn locked<T>(error: &TryLockError<T>) -> PyErr {
+/// Samples of an edit, with their ids.
+fn edited(py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Points> {
+    let ids = std::mem::take(&mut samples.ids);
+    Ok(Points::surface(py, samples)?.with_ids(py, ids))
+}
+
+pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
     PyRuntimeError::new_err(match error {
         TryLockError::WouldBlock => "the set is in use by another call",
         TryLockError::Poisoned(_) => "an internal error broke the set",
@@ -66,7 +114,7 @@ impl Psp {
             .given(given.samples()?)
             .cosine(cosine);
         let set = py.detach(|| psp::Psp::new(&mesh.shared, &request)).map_err(raised)?;
-        Ok(Self { state: RwLock::new(set) })
+        Ok(Self { state: RwLock::new(State::Growing(set)) })
     }
 
     /// Adds samples by iterations of projection, each along three orthogonal directions of a random frame. Two calls add
@@ -86,7 +134,13 @@ impl Psp {
     ) -> PyResult<PspReport> {
         let iterations = natural("iterations", iterations)?;
         let watch = Watch::new(py, threads, progress)?;
-        self.change(watch, |set, context, progress| set.advance(context, iterations, progress))
+        self.change(watch, |state, context, progress| match state {
+            State::Growing(set) => set.advance(context, iterations, progress),
+            _ => Err(Error::InvalidArgument {
+                argument: "iterations",
+                reason: "of a set that has been edited, which makes no more".to_owned(),
+            }),
+        })
     }
 
     /// Adds samples until the set is maximal.
@@ -96,13 +150,95 @@ impl Psp {
     /// Returns a PspReport of this call.
     #[pyo3(signature = (*, threads=0, progress=None))]
     fn fill(&self, py: Python<'_>, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<PspReport> {
-        self.change(Watch::new(py, threads, progress)?, psp::Psp::fill)
+        self.change(Watch::new(py, threads, progress)?, |state, context, progress| match state {
+            State::Growing(set) => set.fill(context, progress),
+            _ => {
+                let set = state.editable();
+                set.refill(context, set.seed(), progress).map(|(_, report)| report)
+            }
+        })
     }
 
-    /// A copy of the set as it is, as Points, in the order in which samples were accepted.
+    /// A copy of the set as it is, as Points, in the order in which samples were accepted; of a set that has been edited
+    /// by rising ids.
     fn points(&self, py: Python<'_>) -> PyResult<Points> {
         let state = self.state.try_read().map_err(|error| locked(&error))?;
         let state = &*state;
-        Points::surface(py, py.detach(|| state.samples()))
+        let samples = py.detach(|| state.samples());
+        if matches!(state, State::Edited(_)) { edited(py, samples) } else { Points::surface(py, samples) }
+    }
+
+    /// Erases the samples in a ball, a box, or what both have in common, and returns them as Points with ids. From the
+    /// first edit on the set makes no more iterations, and every sample has an id, 0, 1, 2 and so on for those that stand
+    /// then: it keeps it, with all its bytes, until it is erased, and no other sample ever gets it.
+    ///
+    /// centre, radius: of the ball, three numbers and one; default: no ball.
+    /// min, max: the corners of the box, three numbers each; default: no box. With neither all samples are erased.
+    ///
+    /// To undo a stroke of a brush, erase_ids() what refill() added, and restore() what this call erased. To redo it,
+    /// erase the same region and refill with the same seed.
+    #[pyo3(signature = (centre=None, radius=None, *, min=None, max=None))]
+    fn erase(
+        &self,
+        py: Python<'_>,
+        centre: Option<[f64; 3]>,
+        radius: Option<f64>,
+        min: Option<[f64; 3]>,
+        max: Option<[f64; 3]>,
+    ) -> PyResult<Points> {
+        let region = region(centre, radius, min, max)?;
+        edited(py, self.edit(py, |set| set.erase(&region))?)
+    }
+
+    /// Erases samples by their ids, uint64, shape (n,), and returns them as Points.
+    fn erase_ids(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<Points> {
+        let ids = Array::<u64>::read("ids", ids)?;
+        let ids = ids.line()?;
+        edited(py, self.edit(py, |set| set.erase_ids(ids))?)
+    }
+
+    /// Puts Points back that an edit of this set erased, with their ids and all their bytes. Refused if one is too close
+    /// to a sample or a given sample by now.
+    fn restore(&self, py: Python<'_>, points: &Points) -> PyResult<()> {
+        let points = points.samples(py)?;
+        self.edit(py, |set| set.restore(&points))
+    }
+
+    /// Adds given samples, as in psp_sample, to those that the set was made with; samples that are too close to one are
+    /// erased. Returns the id of the first of them, which the others follow, and the erased Points.
+    #[pyo3(signature = (given_positions, given_clearances=None))]
+    fn add_given(
+        &self,
+        py: Python<'_>,
+        given_positions: &Bound<'_, PyAny>,
+        given_clearances: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(u64, Points)> {
+        let given = GivenArrays::read(Some(given_positions), given_clearances)?;
+        let given = given.samples()?;
+        let (first, erased) = self.edit(py, |set| set.add_given(given))?;
+        Ok((first, edited(py, erased)?))
+    }
+
+    /// Removes given samples by their ids, uint64, shape (n,): 0, 1, 2 and so on for those that the set was made with.
+    fn remove_given(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<()> {
+        let ids = Array::<u64>::read("ids", ids)?;
+        let ids = ids.line()?;
+        self.edit(py, |set| set.remove_given(ids))
+    }
+
+    /// Makes the set maximal again after edits; looks only where they can have left gaps. What stands stays as it is.
+    ///
+    /// seed: 0 to 2**64 - 1. The same edits and seed add the same samples.
+    /// threads, progress: as in advance(). After Cancelled nothing is added.
+    ///
+    /// Returns the new samples as Points with ids and the report PspReport.
+    #[pyo3(signature = (seed=0, *, threads=0, progress=None))]
+    fn refill(&self, py: Python<'_>, seed: i128, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<Points> {
+        let seed = natural("seed", seed)?;
+        let watch = Watch::new(py, threads, progress)?;
+        let mut state = self.state.try_write().map_err(|error| locked(&error))?;
+        let state = &mut *state;
+        let (added, report) = watch.run(|context, progress| state.editable().refill(context, seed, progress))?;
+        edited(py, added)?.with_report(py, PspReport::from(report))
     }
 }

@@ -4,6 +4,7 @@ mod analysis;
 mod argument;
 mod array;
 mod classes;
+mod edit;
 mod error;
 mod growing;
 mod mesh;
@@ -19,10 +20,10 @@ mod watch;
 
 /// Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
 ///
-/// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample.
-/// Meshes: Mesh, psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density, Psp. Relaxation:
+/// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample,
+/// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density, Psp. Relaxation:
 /// dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Analysis:
-/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others.
+/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
 ///
 /// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
 /// for any number of threads and on every machine.
@@ -44,6 +45,8 @@ mod azulejo {
     };
     #[pymodule_export]
     use crate::classes::classes_radii;
+    #[pymodule_export]
+    use crate::edit::Plane;
     #[pymodule_export]
     use crate::error::Cancelled;
     #[pymodule_export]

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 use pyo3::{PyClass, PyClassInitializer};
 
-use crate::array::{line, line_if_any, table};
+use crate::array::{Array, Entry, line, line_if_any, table};
 
 /// Samples. len() is their number n; numpy.asarray() gives their positions. What does not apply is None.
 #[pyclass(frozen, module = "azulejo")]
@@ -35,6 +35,9 @@ pub(crate) struct Points {
     /// Of several classes: the class of each sample, uint32, shape (n,).
     #[pyo3(get)]
     classes: Option<Py<PyArray1<u32>>>,
+    /// Of sets that are edited: the id of each sample, uint64, shape (n,).
+    #[pyo3(get)]
+    ids: Option<Py<PyArray1<u64>>>,
     /// The report of the call.
     #[pyo3(get)]
     report: Option<Py<PyAny>>,
@@ -54,6 +57,7 @@ impl Points {
             radii: None,
             ranks: line_if_any(py, ranks),
             classes: line_if_any(py, classes),
+            ids: None,
             report: None,
             count,
         })
@@ -75,7 +79,7 @@ impl Points {
             ranks,
             classes,
             radii,
-            ids: _, // of sets that are edited, which Python does not have
+            ids: _, // see with_ids
         } = samples;
         let has_normals = !interpolated_normals.is_empty();
         Ok(Self {
@@ -88,6 +92,7 @@ impl Points {
             radii: line_if_any(py, radii),
             ranks: line_if_any(py, ranks),
             classes: line_if_any(py, classes),
+            ids: None,
             report: None,
         })
     }
@@ -96,6 +101,26 @@ impl Points {
     pub(crate) fn adaptive(py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Self> {
         let radii = std::mem::take(&mut samples.radii);
         Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples)? })
+    }
+
+    /// Samples of a set that is edited: an empty set has ids too.
+    pub(crate) fn with_ids(self, py: Python<'_>, ids: Vec<u64>) -> Self {
+        Self { ids: Some(line(py, ids)), ..self }
+    }
+
+    /// The samples of a set that is edited, as the library takes them.
+    pub(crate) fn samples<const N: usize>(&self, py: Python<'_>) -> PyResult<azulejo_core::Points<N>> {
+        let barycentrics = self.barycentrics.as_ref().map(|rows| rows.bind(py).as_any());
+        Ok(azulejo_core::Points {
+            positions: Array::read("points", self.positions.bind(py))?.rows()?.to_vec(),
+            triangles: entries(py, self.triangles.as_ref())?,
+            barycentrics: match barycentrics {
+                Some(rows) => Array::read("points", rows)?.rows()?.to_vec(),
+                None => Vec::new(),
+            },
+            ids: entries(py, self.ids.as_ref())?,
+            ..Default::default()
+        })
     }
 
     pub(crate) fn with_classes(self, py: Python<'_>, classes: Vec<u32>) -> Self {
@@ -109,6 +134,11 @@ impl Points {
     ) -> PyResult<Self> {
         Ok(Self { report: Some(Py::new(py, report)?.into_any()), ..self })
     }
+}
+
+/// The entries of an array, if there is one.
+fn entries<T: Entry>(py: Python<'_>, array: Option<&Py<PyArray1<T>>>) -> PyResult<Vec<T>> {
+    array.map_or(Ok(Vec::new()), |array| Ok(Array::read("points", array.bind(py).as_any())?.line()?.to_vec()))
 }
 
 #[pymethods]

@@ -5,10 +5,11 @@
 //! long as nothing else has its memory. That it has none is the caller's word (`SAFETY` below), for which there is no
 //! check.
 
+use std::sync::TryLockError;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::boundary::{self, Out, check_pointer, rows};
-use crate::status::{Failure, azulejo_status};
+use crate::status::{AZULEJO_ERROR_BUSY, AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
 
 /// A type that the caller has handles of.
 ///
@@ -124,6 +125,17 @@ pub(crate) unsafe fn free<T: Handle>(argument: &str, pointer: *mut T) {
         drop(tagged);
         Ok(())
     });
+}
+
+/// The refusal of a call on a handle whose lock cannot be had.
+pub(crate) fn locked<T>(argument: &str, error: &TryLockError<T>) -> Failure {
+    match error {
+        TryLockError::WouldBlock => Failure::new(AZULEJO_ERROR_BUSY, format!("{argument}: is in use by another call")),
+        TryLockError::Poisoned(_) => {
+            let reason = format!("{argument}: an internal error broke the set off; it can only be freed");
+            Failure::new(AZULEJO_ERROR_INTERNAL, reason)
+        }
+    }
 }
 
 /// Overwrites the tag. The store must be made although the memory is given back right afterwards: an optimiser would

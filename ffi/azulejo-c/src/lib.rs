@@ -26,6 +26,7 @@
 //!   a plane without end, into the host's arrays   azulejo_kdrt_create or azulejo_kdrt_create_wide,
 //!                                                 azulejo_kdrt_window_into
 //!   more samples than memory holds                azulejo_kdrt_stream
+//!   a plane under a brush: erase, refill, undo    azulejo_plane_create, _erase, _refill
 //!   a rectangle with a density, such as an image  azulejo_dcr_scatter, azulejo_dcr_relax_density
 //!   samples of a mesh                             azulejo_psp_sample
 //!   a mesh whose radius or density varies         azulejo_psp_adaptive_sample, _with_density
@@ -73,8 +74,8 @@
 //!     value outside its documented range, an unknown constant, a flag other than 0 and 1, and an
 //!     option that its text excludes from the call;
 //!   - AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, and for more than memory holds;
-//!   - AZULEJO_ERROR_CANCELLED in calls that report progress, AZULEJO_ERROR_BUSY in those of a psp
-//!     handle, AZULEJO_ERROR_THREADS in those with a context (see "Threads");
+//!   - AZULEJO_ERROR_CANCELLED in calls that report progress, AZULEJO_ERROR_BUSY in those of a psp or
+//!     plane handle, AZULEJO_ERROR_THREADS in those with a context (see "Threads");
 //!   - AZULEJO_ERROR_INTERNAL for a panic inside the library, which is a bug.
 //!
 //! Arguments. Results come last: `out` receives what the call makes, `report`, which may be NULL,
@@ -83,13 +84,13 @@
 //!   only, arrays in structs as well. The pointer of an empty array may be NULL, with the count 0.
 //!   Invalid pointers that are aligned, and counts that exceed an array, cannot be detected.
 //!
-//! Handles. azulejo_context, azulejo_kdrt, azulejo_mesh, azulejo_psp, azulejo_points,
-//!   azulejo_selection, azulejo_spectrum and azulejo_differences are made by the library. The caller
-//!   owns them and frees each with its own _free function, which allows NULL. They may be freed in
-//!   any order: a handle keeps what it needs of another one. Pointers into a handle are valid until
-//!   it is freed. Accessors return 0 or NULL for NULL. A handle of another type is always refused, a
-//!   freed one as long as its memory has not been used again; accessors then return 0 or NULL, _free
-//!   functions do nothing, and both set the last error.
+//! Handles. azulejo_context, azulejo_kdrt, azulejo_plane, azulejo_mesh, azulejo_psp,
+//!   azulejo_points, azulejo_selection, azulejo_spectrum and azulejo_differences are made by the
+//!   library. The caller owns them and frees each with its own _free function, which allows NULL.
+//!   They may be freed in any order: a handle keeps what it needs of another one. Pointers into a
+//!   handle are valid until it is freed. Accessors return 0 or NULL for NULL. A handle of another
+//!   type is always refused, a freed one as long as its memory has not been used again; accessors
+//!   then return 0 or NULL, _free functions do nothing, and both set the last error.
 //!
 //! Structs with a struct_size can grow. Their _init function must fill them before use; it takes
 //!   sizeof the struct as struct_size, and writes the defaults to options and zeros to reports. An
@@ -107,8 +108,8 @@
 //!   and only if the call succeeds. A return value other than 0 cancels the call, which returns
 //!   AZULEJO_ERROR_CANCELLED. The exceptions are azulejo_dcr_relax, azulejo_dcr_relax_classes,
 //!   azulejo_dcr_relax_density and azulejo_dcr_surface_relax: they succeed with the state after the
-//!   last whole step, and AZULEJO_STOPPED_CANCELLED in their report. Calls without a context or a
-//!   psp handle do not report progress.
+//!   last whole step, and AZULEJO_STOPPED_CANCELLED in their report. Calls without a context, a psp
+//!   or a plane handle do not report progress.
 //!
 //! Callbacks may call the library, also with the context that is calling them. They must return: an
 //!   exception that leaves one ends the process, a longjmp out of it is undefined. Progress and
@@ -119,12 +120,12 @@
 //!
 //! Threads. Every function may be called from any thread at any time. Several threads may use one
 //!   context at once, make windows of one plane, and read one mesh, set of points, selection,
-//!   spectrum or differences: these do not change. A psp handle serves one changing call at a time.
-//!   A handle must not be freed while another thread uses it. The last error belongs to the thread
-//!   that made the call. After fork, in the child, contexts with more than one thread and psp
-//!   handles made with them return AZULEJO_ERROR_THREADS; they can still be freed. Planes, contexts
-//!   of one thread, and contexts made after the fork work. If the process used Embree before it
-//!   forked, the child should use AZULEJO_ENGINE_RASTERISER.
+//!   spectrum or differences: these do not change. A psp or plane handle serves one changing call at
+//!   a time. A handle must not be freed while another thread uses it. The last error belongs to the
+//!   thread that made the call. After fork, in the child, contexts with more than one thread and psp
+//!   and plane handles made with them return AZULEJO_ERROR_THREADS; they can still be freed. Windows
+//!   of planes, contexts of one thread, and contexts made after the fork work. If the process used
+//!   Embree before it forked, the child should use AZULEJO_ENGINE_RASTERISER.
 //!
 //! Determinism. The same options and seed give the same bytes, for every number of threads and
 //!   whatever was called before, on every processor and system. Only AZULEJO_ENGINE_EMBREE depends
@@ -165,6 +166,7 @@ pub mod context;
 pub mod domain;
 pub mod order;
 pub mod points;
+pub mod region;
 
 pub mod classes;
 
@@ -173,6 +175,7 @@ pub mod kdrt_classes;
 pub mod kept;
 pub mod maximal;
 pub mod merge;
+pub mod plane_edit;
 
 pub mod embree;
 pub mod mesh;

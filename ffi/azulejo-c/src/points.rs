@@ -31,10 +31,10 @@ impl azulejo_points {
         Self { samples, radii: Vec::new(), ranks: Vec::new(), classes: Vec::new(), ids: Vec::new() }
     }
 
-    /// Samples of the plane, with their ranks or classes if they have any.
+    /// Samples of the plane, with their ranks, classes or ids if they have any.
     pub(crate) fn plane(points: impl Into<Points<2>>) -> Self {
-        let Points { positions, ranks, classes, .. } = points.into();
-        Self { ranks, classes, ..Self::of(Samples::Plane(positions)) }
+        let Points { positions, ranks, classes, ids, .. } = points.into();
+        Self { ranks, classes, ids, ..Self::of(Samples::Plane(positions)) }
     }
 
     pub(crate) fn surface(mut samples: Points<3>) -> Self {
@@ -154,8 +154,8 @@ pub unsafe extern "C" fn azulejo_points_classes(points: *const azulejo_points) -
     unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.classes))
 }
 
-/// The ids of the samples of a psp handle that has been edited (azulejo_psp_erase): a sample keeps
-/// its id as long as it stands, and no other one ever gets it.
+/// The ids of the samples of a set that has been edited (azulejo_plane_erase, azulejo_psp_erase): a
+/// sample keeps its id as long as it stands, and no other one ever gets it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_ids(points: *const azulejo_points) -> *const u64 {
     // SAFETY: handed on from the caller.

@@ -20,7 +20,7 @@ use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
-use crate::status::{AZULEJO_ERROR_BUSY, AZULEJO_ERROR_INTERNAL, Failure, azulejo_status};
+use crate::status::{Failure, azulejo_status};
 
 /// A set of samples on a mesh that can grow. It keeps its context and its mesh, which may be freed
 /// before it. Several threads may copy its points at once.
@@ -452,10 +452,5 @@ unsafe fn change(
 }
 
 fn locked<T>(error: &TryLockError<T>) -> Failure {
-    match error {
-        TryLockError::WouldBlock => Failure::new(AZULEJO_ERROR_BUSY, "psp: is in use by another call"),
-        TryLockError::Poisoned(_) => {
-            Failure::new(AZULEJO_ERROR_INTERNAL, "psp: an internal error broke the set off; it can only be freed")
-        }
-    }
+    handles::locked("psp", error)
 }

@@ -1,61 +1,19 @@
 //! PSP: sets on meshes that are edited.
 
+use azulejo_core::Points;
 use azulejo_core::psp::sample_region;
-use azulejo_core::{Points, Region};
 
-use crate::boundary::{self, Out, check_reserved, rows};
+use crate::boundary::{self, Out, rows};
 use crate::context::azulejo_context;
 use crate::given::given;
-use crate::growing::{self, Output, growing};
+use crate::growing::{self, Output};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::{Samples, azulejo_points};
 use crate::psp::{azulejo_psp, azulejo_psp_options};
 use crate::psp_report::azulejo_psp_report;
+use crate::region::azulejo_region;
 use crate::status::{Failure, azulejo_status};
-
-/// A part of space: the points that lie in a box and within a distance of a centre, the boundary
-/// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
-/// for a box, or all four for what they have in common.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct azulejo_region {
-    /// The size of the struct in bytes; set by the _init function.
-    pub struct_size: u32,
-    /// Must be 0.
-    pub reserved: u32,
-    /// The lowest coordinates of the box; default minus infinity.
-    pub min: [f64; 3],
-    /// The highest coordinates, not below `min`; default infinity.
-    pub max: [f64; 3],
-    /// The centre of the ball, finite; default 0.
-    pub centre: [f64; 3],
-    /// The radius of the ball, 0 or more; default infinity.
-    pub radius: f64,
-}
-
-growing!(azulejo_region requires radius {
-    reserved: 0,
-    min: Region::EVERYWHERE.min,
-    max: Region::EVERYWHERE.max,
-    centre: Region::EVERYWHERE.centre,
-    radius: Region::EVERYWHERE.radius,
-});
-
-impl azulejo_region {
-    fn region(&self) -> Result<Region, Failure> {
-        check_reserved(self.reserved)?;
-        let &Self { min, max, centre, radius, .. } = self;
-        Ok(Region { min, max, centre, radius })
-    }
-}
-
-/// Writes the defaults: all of space.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_region_init(region: *mut azulejo_region, struct_size: usize) -> azulejo_status {
-    // SAFETY: handed on from the caller.
-    unsafe { growing::init("region", region, struct_size) }
-}
 
 /// Erases the samples of a set in a region. From the first edit on the set can be filled again
 /// (azulejo_psp_refill, azulejo_psp_fill) but makes no more iterations, and every sample has an id

@@ -28,13 +28,14 @@ const HEADERS: [Header; 6] = [
         name: "base",
         page: "What all calls share: status codes, contexts, points, orders, classes and meshes.",
         sources: &[
-            "status", "version", "progress", "context", "domain", "order", "points", "classes", "mesh", "embree",
+            "status", "version", "progress", "context", "domain", "order", "points", "region", "classes", "mesh",
+            "embree",
         ],
     },
     Header {
         name: "kdrt",
-        page: "KDRT: maximal Poisson-disk sets in the plane, whole, in windows and in streams.",
-        sources: &["kdrt", "kept", "kdrt_classes", "merge", "maximal"],
+        page: "KDRT: maximal Poisson-disk sets in the plane, whole, in windows and in streams, and edited.",
+        sources: &["kdrt", "kept", "kdrt_classes", "merge", "plane_edit", "maximal"],
     },
     Header {
         name: "psp",

@@ -21,7 +21,9 @@ use azulejo_c::order::*;
 use azulejo_c::points::*;
 use azulejo_c::psp::*;
 use azulejo_c::psp_classes::*;
+use azulejo_c::plane_edit::*;
 use azulejo_c::psp_edit::*;
+use azulejo_c::region::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
 use azulejo_c::thin::*;
@@ -46,6 +48,7 @@ macro_rules! freed {
 freed!(
     azulejo_context: azulejo_context_free,
     azulejo_kdrt: azulejo_kdrt_free,
+    azulejo_plane: azulejo_plane_free,
     azulejo_mesh: azulejo_mesh_free,
     azulejo_psp: azulejo_psp_free,
     azulejo_points: azulejo_points_free,
@@ -200,6 +203,12 @@ fn planes() {
         let mut wide = null_mut();
         let status = azulejo_kdrt_create_wide(context.get(), &options, &raw mut wide);
         assert_eq!(status, AZULEJO_ERROR_INVALID_ARGUMENT, "one that is not tiled");
+        for count in [0, 1] {
+            let plane = made(|out| azulejo_plane_create(context.get(), &options, [0.25f32, 0.5].as_ptr(), count, out));
+            edit_plane(plane.get());
+            assert!(read_and_free(made(|out| azulejo_plane_points(plane.get(), out))) > 2);
+            drop(plane);
+        }
         let (mut matrix, mut classes) = ([0f64; 4], defaults(azulejo_classes_init));
         assert_eq!(azulejo_classes_radii([0.45f64, 0.3].as_ptr(), 2, 1.0, matrix.as_mut_ptr()), AZULEJO_OK);
         (classes.count, classes.radii) = (2, matrix.as_ptr());
@@ -351,6 +360,31 @@ unsafe fn edit(set: *mut azulejo_psp) {
         all.radius = f64::NAN;
         assert_eq!(azulejo_psp_erase(set, &all, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
         assert!(cfg!(miri) || azulejo_psp_refill(set, 3, null_mut(), null_mut()) == AZULEJO_OK);
+    }
+}
+
+/// Edits of a set of the plane.
+///
+/// # Safety
+/// The handle lives.
+unsafe fn edit_plane(set: *mut azulejo_plane) {
+    let mut all = defaults(azulejo_region_init);
+    let (place, clearance, mut id) = ([0.9f32, 0.1], 0.1f64, 7u64);
+    // SAFETY: the handle lives, and the arrays have the given lengths.
+    unsafe {
+        read_and_free(made(|out: Out<_>| azulejo_plane_add_given(set, place.as_ptr(), &clearance, 1, &mut id, out)));
+        assert_eq!(azulejo_plane_remove_given(set, &id, 1), AZULEJO_OK);
+        assert_eq!(azulejo_plane_remove_given(set, &id, 1), AZULEJO_ERROR_INVALID_ARGUMENT);
+        let erased = made(|out| azulejo_plane_erase(set, &all, out));
+        let (ids, count) = (erased.read(azulejo_points_ids), erased.read(azulejo_points_count));
+        assert_eq!(azulejo_plane_restore(set, erased.get()), AZULEJO_OK);
+        assert_eq!(azulejo_plane_erase_ids(set, ids, count, null_mut()), AZULEJO_OK);
+        assert_eq!(azulejo_plane_erase_ids(set, &1000, 1, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
+        all.radius = f64::NAN;
+        assert_eq!(azulejo_plane_erase(set, &all, null_mut()), AZULEJO_ERROR_INVALID_ARGUMENT);
+        let mut report = defaults(azulejo_kdrt_report_init);
+        read_and_free(made(|out| azulejo_plane_refill(set, 3, out, &mut report)));
+        assert!(report.samples > 2);
     }
 }
 

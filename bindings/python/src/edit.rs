@@ -1,0 +1,191 @@
+//! Sets of the plane that are edited.
+
+use std::sync::RwLock;
+
+use azulejo_core::kdrt::EditableSet;
+use azulejo_core::{Error, Region};
+use pyo3::prelude::*;
+
+use crate::argument::{domain, natural};
+use crate::array::{Array, GivenArrays};
+use crate::error::{invalid, raised};
+use crate::growing::locked;
+use crate::plane::Request;
+use crate::points::Points;
+use crate::watch::Watch;
+
+/// A set of the plane that is edited. One call at a time may change it; another one, from another thread or from
+/// progress, raises RuntimeError.
+///
+/// radius, domain_min, domain_max, boundary, leaf_size, seed, given_positions, given_clearances: as in kdrt_sample, whose
+///     set it begins with. Or:
+/// positions: float32, shape (n, 2): any set of the domain, in which no two are closer than the radius. The first refill
+///     looks for gaps everywhere.
+///
+/// Every sample has an id, at first 0, 1, 2 and so on: it keeps it, with all its bytes, until it is erased, and no other
+/// sample ever gets it.
+#[pyclass(frozen, module = "azulejo")]
+pub(crate) struct Plane {
+    set: RwLock<EditableSet>,
+}
+
+impl Plane {
+    /// Makes an edit without the interpreter's lock.
+    fn edit<T: Send>(
+        &self,
+        py: Python<'_>,
+        step: impl FnOnce(&mut EditableSet) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        let mut set = self.set.try_write().map_err(|error| locked(&error))?;
+        let set = &mut *set;
+        py.detach(|| step(set)).map_err(raised)
+    }
+}
+
+/// Samples of an edit, with their ids.
+fn edited(py: Python<'_>, mut samples: azulejo_core::Points<2>) -> PyResult<Points> {
+    let ids = std::mem::take(&mut samples.ids);
+    Ok(Points::plane(py, samples)?.with_ids(py, ids))
+}
+
+/// The region of a ball and a box, of which either may be missing; in the plane at height 0.
+pub(crate) fn region<const N: usize>(
+    centre: Option<[f64; N]>,
+    radius: Option<f64>,
+    min: Option<[f64; N]>,
+    max: Option<[f64; N]>,
+) -> PyResult<Region> {
+    let mut region = Region::EVERYWHERE;
+    match (centre, radius) {
+        (Some(centre), Some(radius)) => {
+            region.centre[..N].copy_from_slice(&centre);
+            region.radius = radius;
+        }
+        (None, None) => (),
+        (Some(_), None) => return Err(invalid("radius", "None, but there is a centre")),
+        (None, Some(_)) => return Err(invalid("centre", "None, but there is a radius")),
+    }
+    if let Some(min) = min {
+        region.min[..N].copy_from_slice(&min);
+    }
+    if let Some(max) = max {
+        region.max[..N].copy_from_slice(&max);
+    }
+    Ok(region)
+}
+
+#[pymethods]
+impl Plane {
+    #[new]
+    #[pyo3(signature = (
+        radius, positions=None, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0,
+        seed=0, given_positions=None, given_clearances=None, threads=0, progress=None
+    ))]
+    fn new(
+        py: Python<'_>,
+        radius: f64,
+        positions: Option<&Bound<'_, PyAny>>,
+        domain_min: [f64; 2],
+        domain_max: [f64; 2],
+        boundary: &str,
+        leaf_size: f64,
+        seed: i128,
+        given_positions: Option<&Bound<'_, PyAny>>,
+        given_clearances: Option<&Bound<'_, PyAny>>,
+        threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        let domain = domain(domain_min, domain_max, boundary)?;
+        let given = (given_positions, given_clearances);
+        let request = Request::new(domain, leaf_size, seed, ("any", None, None), given)?;
+        let request = request.by_radius(radius)?;
+        let watch = Watch::new(py, threads, progress)?;
+        let positions = positions.map(|positions| Array::<f32>::read("positions", positions)).transpose()?;
+        let positions = positions.as_ref().map(Array::rows).transpose()?;
+        let set = watch.run(|context, progress| match positions {
+            None => EditableSet::sample(context, &request, progress),
+            Some(positions) => EditableSet::of(&request, positions),
+        })?;
+        Ok(Self { set: RwLock::new(set) })
+    }
+
+    /// A copy of the set as it is, as Points, by rising ids.
+    fn points(&self, py: Python<'_>) -> PyResult<Points> {
+        let set = self.set.try_read().map_err(|error| locked(&error))?;
+        let set = &*set;
+        edited(py, py.detach(|| set.samples()))
+    }
+
+    /// Erases the samples in a disk, a rectangle, or what both have in common, and returns them as Points. On a torus both
+    /// may reach over the seam.
+    ///
+    /// centre, radius: of the disk, two numbers and one; default: no disk.
+    /// min, max: the corners of the rectangle, two numbers each; default: no rectangle. With neither all samples are
+    ///     erased.
+    ///
+    /// To undo a stroke of a brush, erase_ids() what refill() added, and restore() what this call erased. To redo it,
+    /// erase the same region and refill with the same seed.
+    #[pyo3(signature = (centre=None, radius=None, *, min=None, max=None))]
+    fn erase(
+        &self,
+        py: Python<'_>,
+        centre: Option<[f64; 2]>,
+        radius: Option<f64>,
+        min: Option<[f64; 2]>,
+        max: Option<[f64; 2]>,
+    ) -> PyResult<Points> {
+        let region = region(centre, radius, min, max)?;
+        edited(py, self.edit(py, |set| set.erase(&region))?)
+    }
+
+    /// Erases samples by their ids, uint64, shape (n,), and returns them as Points.
+    fn erase_ids(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<Points> {
+        let ids = Array::<u64>::read("ids", ids)?;
+        let ids = ids.line()?;
+        edited(py, self.edit(py, |set| set.erase_ids(ids))?)
+    }
+
+    /// Puts Points back that an edit of this set erased, with their ids and all their bytes. Refused if one is too close
+    /// to a sample or a given sample by now.
+    fn restore(&self, py: Python<'_>, points: &Points) -> PyResult<()> {
+        let points = points.samples(py)?;
+        self.edit(py, |set| set.restore(&points))
+    }
+
+    /// Adds given samples, as in kdrt_sample, to those that the set was made with; samples that are too close to one are
+    /// erased. Returns the id of the first of them, which the others follow, and the erased Points.
+    #[pyo3(signature = (given_positions, given_clearances=None))]
+    fn add_given(
+        &self,
+        py: Python<'_>,
+        given_positions: &Bound<'_, PyAny>,
+        given_clearances: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(u64, Points)> {
+        let given = GivenArrays::read(Some(given_positions), given_clearances)?;
+        let given = given.samples()?;
+        let (first, erased) = self.edit(py, |set| set.add_given(given))?;
+        Ok((first, edited(py, erased)?))
+    }
+
+    /// Removes given samples by their ids, uint64, shape (n,): 0, 1, 2 and so on for those that the set was made with.
+    fn remove_given(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<()> {
+        let ids = Array::<u64>::read("ids", ids)?;
+        let ids = ids.line()?;
+        self.edit(py, |set| set.remove_given(ids))
+    }
+
+    /// Makes the set maximal again after edits; looks only where they can have left gaps. What stands stays as it is.
+    ///
+    /// seed: 0 to 2**64 - 1. The same edits and seed add the same samples.
+    /// threads, progress: as in kdrt_sample. After Cancelled nothing is added.
+    ///
+    /// Returns the new samples as Points.
+    #[pyo3(signature = (seed=0, *, threads=0, progress=None))]
+    fn refill(&self, py: Python<'_>, seed: i128, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<Points> {
+        let seed = natural("seed", seed)?;
+        let watch = Watch::new(py, threads, progress)?;
+        let mut set = self.set.try_write().map_err(|error| locked(&error))?;
+        let set = &mut *set;
+        edited(py, watch.run(|context, progress| set.refill(context, seed, progress))?)
+    }
+}

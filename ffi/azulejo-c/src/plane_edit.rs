@@ -1,0 +1,299 @@
+//! Sets of the plane that are edited.
+
+use std::sync::{RwLock, RwLockWriteGuard};
+use std::time::Instant;
+
+use azulejo_core::Points;
+use azulejo_core::kdrt::EditableSet;
+
+use crate::boundary::{self, Out, rows};
+use crate::context::azulejo_context;
+use crate::given::given;
+use crate::growing::{self, Output};
+use crate::handles::{self, handle};
+use crate::kdrt::{azulejo_kdrt_options, azulejo_kdrt_report, of_samples};
+use crate::points::{Samples, azulejo_points};
+use crate::progress::Watch;
+use crate::region::azulejo_region;
+use crate::status::{Failure, azulejo_status};
+
+/// A set of the plane that is edited. It keeps its context, which may be freed before it.
+///
+/// One call at a time may change it; another one, from another thread or from the progress
+/// callback, is refused with AZULEJO_ERROR_BUSY. Several threads may copy its points at once.
+pub struct azulejo_plane {
+    context: azulejo_context,
+    watch: Watch,
+    set: RwLock<EditableSet>,
+}
+
+impl azulejo_plane {
+    /// The set, for a call that changes it.
+    fn lock(&self) -> Result<RwLockWriteGuard<'_, EditableSet>, Failure> {
+        self.set.try_write().map_err(|error| handles::locked("plane", &error))
+    }
+}
+
+handle!(azulejo_plane);
+
+/// Makes a set of the plane that is edited. Its samples have ids (azulejo_points_ids), at first 0,
+/// 1, 2 and so on in their order. A sample keeps its id and all its bytes until it is erased, and
+/// no other sample ever gets that id.
+///
+/// options: `count`, `order` and `measure_covering_radius` must have their defaults, and with
+/// positions `leaf_size` too. Given samples have the ids 0, 1, 2 and so on, independent of those of
+/// the samples. The handle keeps the progress callback for all its calls.
+///
+/// positions: x y each, any floats of the domain, no two closer than the radius and none closer to
+/// a given sample than its clearance: a set of an earlier call, or of the host. The first
+/// azulejo_plane_refill looks for gaps everywhere, and takes as long as that.
+///
+/// count: the number of positions. 0: it begins with the set of azulejo_kdrt_sample.
+///
+/// out: the handle, to be freed with azulejo_plane_free.
+///
+/// O(samples) time, and about 40 bytes of memory per sample.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_create(
+    context: *const azulejo_context,
+    options: *const azulejo_kdrt_options,
+    positions: *const f32,
+    count: usize,
+    out: *mut *mut azulejo_plane,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?.clone();
+        // SAFETY: handed on from the caller.
+        let (options, positions) =
+            unsafe { (growing::read("options", options)?, rows::<f32, 2>("positions", positions, "count", count)?) };
+        let (request, watch) = (options.by_radius_only()?, options.watch());
+        let set = match positions {
+            [] => context.run(watch, |context, progress| EditableSet::sample(context, &request, progress))?,
+            _ => EditableSet::of(&request, positions)?,
+        };
+        Ok(azulejo_plane { context, watch, set: RwLock::new(set) })
+    })
+}
+
+/// Copies the set in its present state, by rising ids. Several threads may do so at once.
+///
+/// out: the samples, x y each, with their ids, to be freed with azulejo_points_free.
+///
+/// O(samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
+/// handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_points(
+    plane: *const azulejo_plane,
+    out: *mut *mut azulejo_points,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let plane = unsafe { handles::get("plane", plane) }?;
+        let set = plane.set.try_read().map_err(|error| handles::locked("plane", &error))?;
+        Ok(azulejo_points::plane(set.samples()))
+    })
+}
+
+/// Erases the samples in a region. On a torus a sample lies in it if one of its images lies in the
+/// box, and one in the ball, so that a brush may reach over the seam.
+///
+/// To undo a stroke of a brush, erase what azulejo_plane_refill added, by azulejo_plane_erase_ids,
+/// and give back what this call erased, by azulejo_plane_restore: the set is then as before, bit
+/// for bit. To redo it, erase the same region again and refill with the same seed.
+///
+/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
+/// NULL if they are not wanted.
+///
+/// O(samples in the tiles of 12 to 24 radii that the region touches).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
+/// AZULEJO_ERROR_BUSY while another call uses the handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_erase(
+    plane: *mut azulejo_plane,
+    region: *const azulejo_region,
+    erased: *mut *mut azulejo_points,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let (plane, erased) = unsafe { (handles::get("plane", plane.cast_const())?, Out::optional("erased", erased)?) };
+        // SAFETY: handed on from the caller.
+        let region = unsafe { growing::read("region", region) }?.region()?;
+        put(erased, plane.lock()?.erase(&region)?);
+        Ok(())
+    })
+}
+
+/// Erases samples by their ids.
+///
+/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+///
+/// erased: as in azulejo_plane_erase.
+///
+/// O(samples in the tiles of 12 to 24 radii that they are in).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_erase_ids(
+    plane: *mut azulejo_plane,
+    ids: *const u64,
+    count: usize,
+    erased: *mut *mut azulejo_points,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let (plane, erased) = unsafe { (handles::get("plane", plane.cast_const())?, Out::optional("erased", erased)?) };
+        // SAFETY: handed on from the caller.
+        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        put(erased, plane.lock()?.erase_ids(ids)?);
+        Ok(())
+    })
+}
+
+/// Puts samples back that were erased from the set, with their ids and all their bytes.
+///
+/// points: from an edit of this handle; not changed, and still to be freed.
+///
+/// O(points + samples in the tiles of 12 to 24 radii around them).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
+/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
+/// another call uses the handle. Nothing is put back then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_restore(
+    plane: *mut azulejo_plane,
+    points: *const azulejo_points,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let (plane, points) = unsafe { (handles::get("plane", plane.cast_const())?, handles::get("points", points)?) };
+        let Samples::Plane(positions) = &points.samples else {
+            return Err(Failure::invalid("points", "are samples of a mesh"));
+        };
+        let samples = Points { ids: points.ids.clone(), ..positions.clone().into() };
+        Ok(plane.lock()?.restore(&samples)?)
+    })
+}
+
+/// Adds given samples to those of the options. Samples of the set that are closer to one than its
+/// clearance are erased.
+///
+/// positions: x y each. clearances: one for each, finite and 0 or more; NULL: the radius of the
+/// set.
+///
+/// first_id: the id of the first of them, which the others follow; NULL if it is not wanted.
+///
+/// erased: as in azulejo_plane_erase.
+///
+/// O(samples in the tiles of 12 to 24 radii that the clearances touch), for each.
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
+/// Nothing is changed then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_add_given(
+    plane: *mut azulejo_plane,
+    positions: *const f32,
+    clearances: *const f64,
+    count: usize,
+    first_id: *mut u64,
+    erased: *mut *mut azulejo_points,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let (plane, erased) = unsafe { (handles::get("plane", plane.cast_const())?, Out::optional("erased", erased)?) };
+        // SAFETY: handed on from the caller.
+        let (first_id, given) = unsafe { (Out::optional("first_id", first_id)?, given(positions, clearances, count)?) };
+        let (first, points) = plane.lock()?.add_given(given)?;
+        if let Some(first_id) = first_id {
+            first_id.write(first);
+        }
+        put(erased, points);
+        Ok(())
+    })
+}
+
+/// Removes given samples by their ids: what they covered is filled by the next
+/// azulejo_plane_refill.
+///
+/// O(given samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
+/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_remove_given(
+    plane: *mut azulejo_plane,
+    ids: *const u64,
+    count: usize,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let plane = unsafe { handles::get("plane", plane.cast_const()) }?;
+        // SAFETY: handed on from the caller.
+        let ids = unsafe { rows::<u64, 1>("ids", ids, "count", count) }?.as_flattened();
+        Ok(plane.lock()?.remove_given(ids)?)
+    })
+}
+
+/// Makes the set maximal again after edits, but looks only where samples were erased or given
+/// samples removed since the last refill. All samples that stand stay as they are.
+///
+/// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
+/// to a radius outside a region that was erased, since that is how far the erased samples covered
+/// the plane. Every point of the domain is then within the radius of a sample or the clearance of a
+/// given one, up to 6 float spacings at the largest coordinate.
+///
+/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
+/// if they are not wanted.
+///
+/// report: the set after the call, or NULL; `covering_radius` is -1.
+///
+/// O(area in and around the edited regions + given samples).
+///
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
+/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_refill(
+    plane: *mut azulejo_plane,
+    seed: u64,
+    added: *mut *mut azulejo_points,
+    report: *mut azulejo_kdrt_report,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let (plane, added) = unsafe { (handles::get("plane", plane.cast_const())?, Out::optional("added", added)?) };
+        // SAFETY: handed on from the caller.
+        let report = unsafe { Output::optional("report", report) }?;
+        let (mut set, start) = (plane.lock()?, Instant::now());
+        let points = plane.context.run(plane.watch, |context, progress| set.refill(context, seed, progress))?;
+        if let Some(report) = report {
+            let seconds = start.elapsed().as_secs_f64();
+            report.write(azulejo_kdrt_report { seconds, ..of_samples(set.len(), set.radius()) });
+        }
+        put(added, points);
+        Ok(())
+    })
+}
+
+/// Frees a set. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_free(plane: *mut azulejo_plane) {
+    // SAFETY: handed on from the caller.
+    unsafe { handles::free("plane", plane) };
+}
+
+/// Hands samples to the caller, if they are wanted.
+fn put(out: Option<Out<*mut azulejo_points>>, points: Points<2>) {
+    if let Some(out) = out {
+        out.write(handles::make(azulejo_points::plane(points)));
+    }
+}
