@@ -129,6 +129,23 @@ impl Grid {
         })
     }
 
+    /// The share of all radii at which the samples that certainly cover a triangle, by its corners and their radii, just
+    /// cover it: the least of them. Infinite if none covers it.
+    pub fn covering_share(&self, corners: &[Ball; 3], normal: [f32; 3]) -> f64 {
+        let (mut least, [x, y, z, _]) = (f64::INFINITY, corners[0]);
+        self.pages.any_page(self.pages.space.cell([x, y, z]), |page| {
+            let mut covering = self.pages.covering(page, corners, normal);
+            while covering != 0 {
+                let ball = self.pages.sample(page, covering.trailing_zeros() as usize);
+                let shares = corners.map(|corner| squared_share(ball, corner));
+                least = least.min(shares[0].max(shares[1]).max(shares[2]));
+                covering &= covering - 1;
+            }
+            false
+        });
+        least.sqrt()
+    }
+
     /// Those of some sixteenths of a fragment that no single sample certainly covers. The fragment has a normal and, in
     /// its corners, radii such that no point has a smaller one than their linear interpolation.
     pub fn open_sixteenths(
@@ -147,6 +164,11 @@ impl Grid {
         let corners = corners.map(|corner| self.pages.space.scaled(corner));
         self.pages.open_parts(&corners, &halves, reach, normal, open)
     }
+}
+
+/// The square of the distance of two balls' centres over the sum of their radii.
+fn squared_share([x, y, z, r]: Ball, [u, v, w, s]: Ball) -> f64 {
+    distance_squared([x, y, z], [u, v, w]) / square(f64::from(r) + f64::from(s))
 }
 
 #[cfg(test)]
