@@ -260,6 +260,13 @@ mod tests {
             let mut group = Group::<4>::EMPTY;
             group.triangles[0] = [0, 1, 2].map(|i| grid.ball(mesh.corners(0)[i], radii[i].into()));
             let is_open = grid.pages.open_triangles(&mut group, 1, |_| [0.0; 3]) == 1;
+            let share = grid.covering_share(&group.triangles[0], [0.0; 3]);
+            let of_sample = |&(centre, radius): &(DVec3, f64)| {
+                let of_corner = |i: usize| 2.0 * shape.corners[i].distance(centre) / (radius + of(&whole)[i]);
+                of_corner(0).max(of_corner(1)).max(of_corner(2))
+            };
+            let least = samples.iter().map(of_sample).fold(f64::INFINITY, f64::min);
+            assert!(if is_open { share == f64::INFINITY } else { (share / least - 1.0).abs() < 2e-6 });
             let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
             for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
                 let (corners, radii) = (part.shape(&mesh).corners, of(&part));
