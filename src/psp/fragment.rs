@@ -32,8 +32,6 @@ pub struct Shape {
     pub apex: usize,
     /// The length of the longest edge.
     pub longest: f64,
-    /// The largest distance of its points from its centre.
-    pub extent: f64,
 }
 
 impl Fragment {
@@ -43,8 +41,13 @@ impl Fragment {
 
     /// The area: that of the whole triangle, times the share of its barycentrics.
     pub fn area(&self, mesh: &Mesh) -> f64 {
+        mesh.triangle_area(self.triangle) * self.share()
+    }
+
+    /// The share of the area of its triangle.
+    pub fn share(&self) -> f64 {
         let [a, b, c] = self.corners.map(DVec2::from_array);
-        mesh.triangle_area(self.triangle) * (b - a).perp_dot(c - a).abs()
+        (b - a).perp_dot(c - a).abs()
     }
 
     /// The barycentrics of the point with barycentrics `(s, t)` in the fragment.
@@ -58,6 +61,7 @@ impl Fragment {
         Extent::of(self.corners.map(|corner| mesh.point_exact(self.triangle, corner).as_vec3().to_array()))
     }
 
+    #[inline]
     pub fn shape(&self, mesh: &Mesh) -> Shape {
         let [a, b, c] = mesh.exact_corners(self.triangle);
         let at = |[u, v]: [f64; 2]| (1.0 - u - v) * a + u * b + v * c;
@@ -94,13 +98,19 @@ impl Fragment {
 }
 
 impl Shape {
+    #[inline]
     fn of(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
         let opposite = [b.distance_squared(c), c.distance_squared(a), a.distance_squared(b)];
         let apex = (1..3).fold(0, |best, i| if opposite[i] > opposite[best] { i } else { best });
         let centre = (a + b + c) / 3.0;
-        let squared = centre.distance_squared(a).max(centre.distance_squared(b)).max(centre.distance_squared(c));
-        Self { corners, centre, apex, longest: opposite[apex].sqrt(), extent: squared.sqrt() }
+        Self { corners, centre, apex, longest: opposite[apex].sqrt() }
+    }
+
+    /// The largest distance of its points from its centre.
+    pub fn extent(&self) -> f64 {
+        let squared = self.corners.map(|corner| self.centre.distance_squared(corner));
+        squared[0].max(squared[1]).max(squared[2]).sqrt()
     }
 }
 

@@ -17,10 +17,8 @@ use crate::progress::Watch;
 use crate::region::azulejo_region;
 use crate::status::{Failure, azulejo_status};
 
-/// A set of the plane that is edited. It keeps its context, which may be freed before it.
-///
-/// One call at a time may change it; another one, from another thread or from the progress
-/// callback, is refused with AZULEJO_ERROR_BUSY. Several threads may copy its points at once.
+/// A set of the plane that is edited. It keeps its context, which may be freed before it. Several
+/// threads may copy its points at once.
 pub struct azulejo_plane {
     context: azulejo_context,
     watch: Watch,
@@ -50,11 +48,7 @@ handle!(azulejo_plane);
 ///
 /// count: the number of positions. 0: it begins with the set of azulejo_kdrt_sample.
 ///
-/// out: the handle, to be freed with azulejo_plane_free.
-///
 /// O(samples) time, and about 40 bytes of memory per sample.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_create(
     context: *const azulejo_context,
@@ -80,14 +74,7 @@ pub unsafe extern "C" fn azulejo_plane_create(
     })
 }
 
-/// Copies the set in its present state, by rising ids. Several threads may do so at once.
-///
-/// out: the samples, x y each, with their ids, to be freed with azulejo_points_free.
-///
-/// O(samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call changes the
-/// handle.
+/// Copies the samples in their present state, with their ids, by rising ids. O(samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_points(
     plane: *const azulejo_plane,
@@ -110,13 +97,9 @@ pub unsafe extern "C" fn azulejo_plane_points(
 /// and give back what this call erased, by azulejo_plane_restore: the set is then as before, bit
 /// for bit. To redo it, erase the same region again and refill with the same seed.
 ///
-/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
-/// NULL if they are not wanted.
+/// erased: the erased samples with their ids, by rising ids; NULL if they are not wanted.
 ///
 /// O(samples in the tiles of 12 to 24 radii that the region touches).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for a region with a bound that is NaN;
-/// AZULEJO_ERROR_BUSY while another call uses the handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_erase(
     plane: *mut azulejo_plane,
@@ -135,14 +118,11 @@ pub unsafe extern "C" fn azulejo_plane_erase(
 
 /// Erases samples by their ids.
 ///
-/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+/// ids: `count` ids, each of a sample of the set, none twice.
 ///
 /// erased: as in azulejo_plane_erase.
 ///
 /// O(samples in the tiles of 12 to 24 radii that they are in).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no sample of the set has;
-/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is erased then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_erase_ids(
     plane: *mut azulejo_plane,
@@ -162,13 +142,12 @@ pub unsafe extern "C" fn azulejo_plane_erase_ids(
 
 /// Puts samples back that were erased from the set, with their ids and all their bytes.
 ///
-/// points: from an edit of this handle; not changed, and still to be freed.
+/// points: from an edit of this handle.
 ///
 /// O(points + samples in the tiles of 12 to 24 radii around them).
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for samples that are not this set's, that stand
-/// already, or that are too close to a sample or a given sample by now; AZULEJO_ERROR_BUSY while
-/// another call uses the handle. Nothing is put back then.
+/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for samples that are not this set's, that stand
+/// already, or that are too close to a sample or a given sample by now.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_restore(
     plane: *mut azulejo_plane,
@@ -188,17 +167,13 @@ pub unsafe extern "C" fn azulejo_plane_restore(
 /// Adds given samples to those of the options. Samples of the set that are closer to one than its
 /// clearance are erased.
 ///
-/// positions: x y each. clearances: one for each, finite and 0 or more; NULL: the radius of the
-/// set.
+/// clearances: one for each, 0 or more; NULL: the radius of the set.
 ///
 /// first_id: the id of the first of them, which the others follow; NULL if it is not wanted.
 ///
 /// erased: as in azulejo_plane_erase.
 ///
 /// O(samples in the tiles of 12 to 24 radii that the clearances touch), for each.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle.
-/// Nothing is changed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_add_given(
     plane: *mut azulejo_plane,
@@ -223,12 +198,7 @@ pub unsafe extern "C" fn azulejo_plane_add_given(
 }
 
 /// Removes given samples by their ids: what they covered is filled by the next
-/// azulejo_plane_refill.
-///
-/// O(given samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for an id that no given sample has;
-/// AZULEJO_ERROR_BUSY while another call uses the handle. Nothing is removed then.
+/// azulejo_plane_refill. O(given samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_remove_given(
     plane: *mut azulejo_plane,
@@ -252,15 +222,12 @@ pub unsafe extern "C" fn azulejo_plane_remove_given(
 /// the plane. Every point of the domain is then within the radius of a sample or the clearance of a
 /// given one, up to 6 float spacings at the largest coordinate.
 ///
-/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
-/// if they are not wanted.
+/// added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 ///
-/// report: the set after the call, or NULL; `covering_radius` is -1.
+/// report: of the set after the call; `covering_radius` is -1.
 ///
-/// O(area in and around the edited regions + given samples).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT; AZULEJO_ERROR_BUSY while another call uses the handle;
-/// AZULEJO_ERROR_CANCELLED: nothing is added then, and the call can be repeated.
+/// O(area in and around the edited regions + given samples). A call that was cancelled can be
+/// repeated.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_refill(
     plane: *mut azulejo_plane,

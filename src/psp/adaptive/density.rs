@@ -108,7 +108,7 @@ impl<'a> DensityField<'a> {
                 fragment.corners.map(at).into_iter().fold(none, joined)
             }
             Of::Function { slope, .. } => {
-                let change = slope * shape.extent;
+                let change = slope * shape.extent();
                 [centre - change, centre + change].map(|x| x.clamp(0.0, self.largest))
             }
             Of::Image { image, texture } => {
@@ -140,17 +140,14 @@ impl<'a> DensityField<'a> {
         let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         let parts = job.map(chunks.len(), |chunk| {
-            let (mut slices, mut sum) = (Vec::new(), 0.0);
-            for triangle in chunks.range(chunk).map(|triangle| triangle as u32) {
-                if self.mesh.triangle_area(triangle) == 0.0 {
-                    continue;
-                }
+            let (mut slices, mut sum, asks_places) = (Vec::new(), 0.0, self.slope().is_some());
+            for (triangle, area) in self.mesh.triangles_with_area(chunks.range(chunk)) {
                 slice(self.mesh, triangle, longest, &mut slices);
                 for slice in slices.drain(..) {
                     for part in slice.parts_up_to(self.mesh, longest) {
-                        let place = part.shape(self.mesh).centre.to_array();
+                        let place = if asks_places { part.shape(self.mesh).centre.to_array() } else { [0.0; 3] };
                         let density = self.at(triangle, part.at([1.0 / 3.0; 2]), place).unwrap_or(0.0);
-                        sum += density * part.area(self.mesh);
+                        sum += density * (area * part.share());
                     }
                 }
             }
@@ -292,25 +289,33 @@ impl<'a> Image<'a> {
     /// The value at texture coordinates: that of the four nearest centres, interpolated.
     pub fn at(&self, uv: [f64; 2]) -> f64 {
         let place = self.place(uv);
-        self.in_cell(place.map(f64::floor), place)
+        self.in_cell(place.map(floor), place)
     }
 
-    /// The value at a place in a cell, a square between four centres of pixels, given by its lower corner.
+    /// The values at the corners of a cell, a square between four centres of pixels, given by its lower corner: row by
+    /// row.
+    fn corners(&self, low: [f64; 2]) -> [f64; 4] {
+        let pixels = |axis: usize| {
+            let (size, first) = (self.size[axis] as i64, low[axis] as i64);
+            // Most cells are inside the image: a division costs more than the rest.
+            let wrapped = |i: i64| if (0..size).contains(&i) { i } else { i.rem_euclid(size) } as usize;
+            [wrapped(first), wrapped(first + 1)]
+        };
+        let ([left, right], [bottom, top]) = (pixels(0), pixels(1));
+        let value = |x: usize, y: usize| f64::from(self.values[y * self.size[0] + x]);
+        [value(left, bottom), value(right, bottom), value(left, top), value(right, top)]
+    }
+
+    /// The value at a place in a cell.
     fn in_cell(&self, low: [f64; 2], place: [f64; 2]) -> f64 {
-        let [s, t] = [place[0] - low[0], place[1] - low[1]];
-        let wrapped = |axis: usize, next: i64| (low[axis] as i64 + next).rem_euclid(self.size[axis] as i64) as usize;
-        let value = |x: i64, y: i64| f64::from(self.values[wrapped(1, y) * self.size[0] + wrapped(0, x)]);
-        let [a, b, c, d] = [value(0, 0), value(1, 0), value(0, 1), value(1, 1)];
-        let mixed = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
-        // Rounding must not take it beyond the values that it is interpolated from.
-        mixed.clamp(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        interpolated(self.corners(low), [place[0] - low[0], place[1] - low[1]])
     }
 
     /// The least and the largest value at texture coordinates in a box: if it lies in few cells, from the values at the
     /// corners of its parts in them, which converge as boxes shrink; otherwise from all pixels around.
     pub fn bounds(&self, low: [f64; 2], high: [f64; 2]) -> Range {
         let [low, high] = [self.place(low), self.place(high)];
-        let cells = |axis: usize| (low[axis].floor(), high[axis].floor());
+        let cells = |axis: usize| (floor(low[axis]), floor(high[axis]));
         let (columns, rows) = (cells(0), cells(1));
         if columns.1 - columns.0 < FEW && rows.1 - rows.0 < FEW {
             return self.bounds_in_cells([columns, rows], low, high);
@@ -329,13 +334,19 @@ impl<'a> Image<'a> {
     /// bilinear function are at corners.
     fn bounds_in_cells(&self, [columns, rows]: [(f64, f64); 2], low: [f64; 2], high: [f64; 2]) -> Range {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-        for row in 0..=(rows.1 - rows.0) as i32 {
-            for column in 0..=(columns.1 - columns.0) as i32 {
+        let counts = [columns, rows].map(|(first, last)| (last - first) as i32 + 1);
+        for row in 0..counts[1] {
+            for column in 0..counts[0] {
                 let cell = [columns.0 + f64::from(column), rows.0 + f64::from(row)];
-                let end = |axis: usize, x: f64| x.clamp(cell[axis], cell[axis] + 1.0);
-                for x in [end(0, low[0]), end(0, high[0])] {
-                    for y in [end(1, low[1]), end(1, high[1])] {
-                        let value = self.in_cell(cell, [x, y]);
+                let corners = self.corners(cell);
+                // What cells share is evaluated in one of them.
+                let ends = |axis: usize, number: i32| {
+                    let end = |x: f64| x.clamp(cell[axis], cell[axis] + 1.0) - cell[axis];
+                    [Some(end(low[axis])), (number + 1 == counts[axis]).then(|| end(high[axis]))]
+                };
+                for s in ends(0, column).into_iter().flatten() {
+                    for t in ends(1, row).into_iter().flatten() {
+                        let value = interpolated(corners, [s, t]);
                         range = [range[0].min(value), range[1].max(value)];
                     }
                 }
@@ -355,6 +366,20 @@ impl<'a> Image<'a> {
         let all = rows.flat_map(|y| columns.clone().map(move |x| [x, y]));
         all.map(|entry| self.range(level, entry)).fold([f32::INFINITY, f32::NEG_INFINITY], joined)
     }
+}
+
+/// The largest whole number that does not exceed a place, which is far from the limits of `i64`. (The function of the
+/// standard library is a call.)
+fn floor(x: f64) -> f64 {
+    let whole = x as i64 as f64;
+    if whole > x { whole - 1.0 } else { whole }
+}
+
+/// The value at a place in a cell, in shares of its sides, from those at its corners.
+fn interpolated([a, b, c, d]: [f64; 4], [s, t]: [f64; 2]) -> f64 {
+    let mixed = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
+    // Rounding must not take it beyond the values that it is interpolated from.
+    mixed.clamp(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
 }
 
 fn joined(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {

@@ -142,7 +142,7 @@ impl<'a> RadiusField<'a> {
 
     /// Bounds for the whole surface.
     pub fn all(&self) -> RadiusBounds {
-        RadiusBounds { least: self.scale * self.all.least, largest: self.scale * self.all.largest }
+        self.all.times(self.scale)
     }
 
     /// The relative radius at a sample.
@@ -192,7 +192,7 @@ impl<'a> RadiusField<'a> {
             Source::Function { at, slope, .. } => {
                 let radius = self.scale * self.call(at, shape.centre.to_array());
                 self.test_slope(shape.centre, radius, within);
-                let change = self.scale * slope * shape.extent;
+                let change = self.scale * slope * shape.extent();
                 let [least, largest] =
                     [radius - change, radius + change].map(|x| x.clamp(within.least, within.largest));
                 RadiusBounds { least, largest }
@@ -246,15 +246,15 @@ impl<'a> RadiusField<'a> {
         RadiusBounds { least: radius, largest: radius }
     }
 
-    /// An upper bound of the radius on a fragment, even where rounding has moved a sample.
-    pub fn above(&self, bounds: RadiusBounds) -> f64 {
+    /// An upper bound of the radii of samples on a fragment with this largest one, even where rounding has moved them.
+    pub fn above(&self, largest: f64) -> f64 {
         let slack = match self.source {
             // The rounding of barycentrics times the difference of two corners.
             Source::Vertices(_) => scalbn(1.0, -22) * self.all().largest,
             Source::Function { slope, .. } => self.scale * slope * self.rounding,
             Source::Density { .. } => 0.0,
         };
-        bounds.largest * (1.0 + ROUNDING) + slack
+        largest * (1.0 + ROUNDING) + slack
     }
 
     /// The radius at the centre of a fragment.
@@ -377,6 +377,11 @@ pub struct RadiusBounds {
 }
 
 impl RadiusBounds {
+    /// Bounds of the radii at a scale, from those of relative ones.
+    pub fn times(self, scale: f64) -> Self {
+        Self { least: scale * self.least, largest: scale * self.largest }
+    }
+
     /// The unit of lengths: the radius as far as it is known. If the bounds are far apart, the least may be due to a
     /// distant corner or to a poor bound; fragments then become smaller, but not by so much.
     pub fn scale(&self) -> f64 {

@@ -129,6 +129,23 @@ impl Grid {
         })
     }
 
+    /// The share of all radii at which the samples that certainly cover a triangle, by its corners and their radii, just
+    /// cover it: the least of them. Infinite if none covers it.
+    pub fn covering_share(&self, corners: &[Ball; 3], normal: [f32; 3]) -> f64 {
+        let (mut least, [x, y, z, _]) = (f64::INFINITY, corners[0]);
+        self.pages.any_page(self.pages.space.cell([x, y, z]), |page| {
+            let mut covering = self.pages.covering(page, corners, normal);
+            while covering != 0 {
+                let ball = self.pages.sample(page, covering.trailing_zeros() as usize);
+                let shares = corners.map(|corner| squared_share(ball, corner));
+                least = least.min(shares[0].max(shares[1]).max(shares[2]));
+                covering &= covering - 1;
+            }
+            false
+        });
+        least.sqrt()
+    }
+
     /// Those of some sixteenths of a fragment that no single sample certainly covers. The fragment has a normal and, in
     /// its corners, radii such that no point has a smaller one than their linear interpolation.
     pub fn open_sixteenths(
@@ -147,6 +164,11 @@ impl Grid {
         let corners = corners.map(|corner| self.pages.space.scaled(corner));
         self.pages.open_parts(&corners, &halves, reach, normal, open)
     }
+}
+
+/// The square of the distance of two balls' centres over the sum of their radii.
+fn squared_share([x, y, z, r]: Ball, [u, v, w, s]: Ball) -> f64 {
+    distance_squared([x, y, z], [u, v, w]) / square(f64::from(r) + f64::from(s))
 }
 
 #[cfg(test)]
@@ -238,6 +260,13 @@ mod tests {
             let mut group = Group::<4>::EMPTY;
             group.triangles[0] = [0, 1, 2].map(|i| grid.ball(mesh.corners(0)[i], radii[i].into()));
             let is_open = grid.pages.open_triangles(&mut group, 1, |_| [0.0; 3]) == 1;
+            let share = grid.covering_share(&group.triangles[0], [0.0; 3]);
+            let of_sample = |&(centre, radius): &(DVec3, f64)| {
+                let of_corner = |i: usize| 2.0 * shape.corners[i].distance(centre) / (radius + of(&whole)[i]);
+                of_corner(0).max(of_corner(1)).max(of_corner(2))
+            };
+            let least = samples.iter().map(of_sample).fold(f64::INFINITY, f64::min);
+            assert!(if is_open { share == f64::INFINITY } else { (share / least - 1.0).abs() < 2e-6 });
             let parts = (0..16).map(|part| (open >> part & 1 == 1, whole.sixteenth(part)));
             for (is_open, part) in std::iter::once((is_open, whole)).chain(parts) {
                 let (corners, radii) = (part.shape(&mesh).corners, of(&part));

@@ -1,12 +1,17 @@
 //! The surface in pieces on which the radius changes little: the number of samples that they require, and the pieces that
 //! are filled, by cubes. The pieces of a cube are filled together.
 
+use std::borrow::Cow;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+use glam::DVec3;
+
 use crate::error::Result;
 use crate::index::Buckets;
-use crate::job::{Job, chunks_of};
+use crate::job::{Chunks, Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
-use crate::psp::adaptive::set::OctaveCubes;
+use crate::psp::adaptive::set::{CubesOfPieces, OctaveCubes};
 use crate::psp::cubes::OctaveCube;
 use crate::psp::fill::measures::{expected_samples_of, longest_edge, require_samples};
 use crate::psp::fill::rounds::{Patch, Whole};
@@ -14,6 +19,10 @@ use crate::psp::fragment::{Fragment, Shape, slice};
 
 /// Triangles per task.
 const CHUNK: usize = 1024;
+
+/// The share by which the scale at which a triangle is covered is increased: several times what rounding adds, so that
+/// the test that finds it covered would do so again at this scale (`fill/page.rs`).
+const ROUNDING: f64 = 1e-5;
 
 /// Pieces are no longer than this, in local radii.
 pub const LONGEST: f64 = 4.0;
@@ -48,29 +57,126 @@ impl Piece {
     }
 }
 
+/// A triangle with an area, as it is at every scale.
+#[derive(Clone, Copy)]
+struct Measured {
+    triangle: u32,
+    area: f64,
+    longest: f64,
+    centre: DVec3,
+    /// Of the relative radius.
+    bounds: RadiusBounds,
+}
+
+/// The triangles with an area that are cut into pieces. Those of a set of many levels are measured once: bounds of the
+/// radius take longer than anything else that is done with a triangle at a scale.
+pub struct MeasuredTriangles<'a> {
+    pub mesh: &'a Mesh,
+    chunks: Chunks,
+    /// Those of each chunk, if they are kept.
+    kept: Vec<Vec<Measured>>,
+    /// With them, for each triangle of the mesh, a scale down to which one sample certainly covers it: the bits of an
+    /// `f64`. Samples stay, so that it holds on all levels to come.
+    covered: Vec<AtomicU64>,
+    /// The number of samples of the set for which that holds.
+    samples: AtomicUsize,
+    /// The scale from which no triangle is cut. Below it covered triangles are not left out: they are tested in groups,
+    /// and the parts of others come between groups, so that the order of open parts would change, and with it the set.
+    cut_below: f64,
+}
+
+impl<'a> MeasuredTriangles<'a> {
+    /// The triangles of a set that is filled at once.
+    pub fn of(mesh: &'a Mesh) -> Self {
+        Self {
+            mesh,
+            chunks: chunks_of(mesh.triangles().len(), CHUNK),
+            kept: Vec::new(),
+            covered: Vec::new(),
+            samples: AtomicUsize::new(0),
+            cut_below: 0.0,
+        }
+    }
+
+    /// The triangles of a set of many levels, with 72 bytes for each.
+    pub fn kept(job: &Job, mesh: &'a Mesh, field: &RadiusField) -> Result<Self> {
+        let field = &field.at_scale(1.0);
+        let triangles = Self::of(mesh);
+        let kept = job.map(triangles.chunks.len(), |chunk| triangles.measure(chunk, field).collect::<Vec<_>>())?;
+        field.check()?;
+        let cut_below = |triangle: &Measured| triangle.longest / (LONGEST * field.settled(triangle.bounds).scale());
+        let cut_below = (1.0 + ROUNDING) * kept.iter().flatten().map(cut_below).fold(0.0, f64::max);
+        let covered = (0..mesh.triangles().len()).map(|_| AtomicU64::new(f64::INFINITY.to_bits())).collect();
+        Ok(Self { kept, covered, cut_below, ..triangles })
+    }
+
+    /// True if scales are kept at which triangles are covered.
+    pub fn keeps_covered(&self) -> bool {
+        !self.covered.is_empty()
+    }
+
+    /// Keeps the scale at which a sample just covers a triangle. Only one task does so for a triangle at a time.
+    pub fn cover(&self, triangle: u32, scale: f64) {
+        self.covered[triangle as usize].store((scale * (1.0 + ROUNDING)).to_bits(), Ordering::Relaxed);
+    }
+
+    /// True if a sample of a level before certainly covers a triangle at a scale, and it can be left out.
+    fn is_covered(&self, triangle: u32, scale: f64) -> bool {
+        let covered = self.covered.get(triangle as usize).filter(|_| scale > self.cut_below);
+        covered.is_some_and(|least| f64::from_bits(least.load(Ordering::Relaxed)) < scale)
+    }
+
+    /// Forgets what is covered, unless the set is the one that the last level ended with. A level that is filled as if
+    /// there were no samples needs all triangles.
+    pub fn begin_level(&self, samples: usize, is_bare: bool) {
+        if is_bare || samples != self.samples.load(Ordering::Relaxed) {
+            self.covered.iter().for_each(|least| least.store(f64::INFINITY.to_bits(), Ordering::Relaxed));
+        }
+    }
+
+    /// Ends a level with so many samples in the set.
+    pub fn end_level(&self, samples: usize) {
+        self.samples.store(samples, Ordering::Relaxed);
+    }
+
+    /// The triangles of a chunk, given the relative radii.
+    fn chunk(&self, chunk: usize, field: &RadiusField) -> Cow<'_, [Measured]> {
+        self.kept.get(chunk).map_or_else(|| self.measure(chunk, field).collect(), |kept| kept.as_slice().into())
+    }
+
+    fn measure(&self, chunk: usize, field: &RadiusField) -> impl Iterator<Item = Measured> {
+        self.mesh.triangles_with_area(self.chunks.range(chunk)).map(|(triangle, area)| {
+            let whole = Fragment::whole(triangle);
+            let shape = whole.shape(self.mesh);
+            let bounds = field.bounds(&whole, &shape, field.all());
+            Measured { triangle, area, longest: shape.longest, centre: shape.centre, bounds }
+        })
+    }
+}
+
 /// The pieces of the whole surface.
 pub fn pieces(
     job: &Job,
-    mesh: &Mesh,
+    triangles: &MeasuredTriangles,
     field: &RadiusField,
     quota: &Quota,
     cubes: &OctaveCubes,
 ) -> Result<Buckets<OctaveCube, Piece>> {
-    let chunks = chunks_of(mesh.triangles().len(), CHUNK);
-    let (pieces, _) = Buckets::collect(job, chunks.len(), |chunk, add| {
-        let (mut slices, mut cuts) = (Vec::new(), Cuts { mesh, field, quota, cubes, add });
-        for (triangle, area) in mesh.triangles_with_area(chunks.range(chunk)) {
-            let whole = Fragment::whole(triangle);
-            let shape = whole.shape(mesh);
-            let bounds = field.bounds(&whole, &shape, field.all());
-            if field.is_empty_radius(bounds.least) {
+    let (mesh, relative) = (triangles.mesh, &field.at_scale(1.0));
+    let (pieces, _) = Buckets::collect(job, triangles.chunks.len(), |chunk, add| {
+        let mut slices = Vec::new();
+        let mut cuts = Cuts { mesh, field, quota, cubes: cubes.of_pieces(), add };
+        for &Measured { triangle, area, longest, centre, bounds } in &*triangles.chunk(chunk, relative) {
+            let bounds = bounds.times(field.scale());
+            // One that is covered needs no cube: most are, by the samples of the level before.
+            if triangles.is_covered(triangle, field.scale()) || field.is_empty_radius(bounds.least) {
                 continue;
             }
-            if cuts.is_small(&shape, bounds) {
+            if cuts.is_small(longest, bounds) {
                 let bounds = field.settled(bounds);
-                let (area, longest) = (area * bounds.density(), shape.longest / bounds.scale());
+                let (area, longest) = (area * bounds.density(), longest / bounds.scale());
                 let whole = Whole { triangle, area: area as f32, longest: longest as f32, local: bounds };
-                cuts.add(&shape, bounds, Piece::Whole(whole));
+                cuts.add(centre, bounds, Piece::Whole(whole));
             } else {
                 slice(mesh, triangle, LONGEST * field.settled(bounds).scale(), &mut slices);
                 if let [whole] = slices[..] {
@@ -80,6 +186,7 @@ pub fn pieces(
             }
         }
     })?;
+    relative.check()?;
     Ok(pieces)
 }
 
@@ -88,18 +195,18 @@ struct Cuts<'a> {
     mesh: &'a Mesh,
     field: &'a RadiusField<'a>,
     quota: &'a Quota,
-    cubes: &'a OctaveCubes,
+    cubes: CubesOfPieces<'a>,
     add: &'a mut dyn FnMut(OctaveCube, Piece),
 }
 
 impl Cuts<'_> {
-    fn is_small(&self, shape: &Shape, bounds: RadiusBounds) -> bool {
-        shape.longest <= LONGEST * self.field.settled(bounds).scale() || self.quota.is_exceeded()
+    fn is_small(&self, longest: f64, bounds: RadiusBounds) -> bool {
+        longest <= LONGEST * self.field.settled(bounds).scale() || self.quota.is_exceeded()
     }
 
-    fn add(&mut self, shape: &Shape, bounds: RadiusBounds, piece: Piece) {
+    fn add(&mut self, centre: DVec3, bounds: RadiusBounds, piece: Piece) {
         self.quota.take(1);
-        (self.add)(self.cubes.cube_of_piece(shape.centre, bounds.largest), piece);
+        (self.add)(self.cubes.cube(centre, bounds.largest), piece);
     }
 
     /// Cuts a fragment that is part of one with bounds `within` into quarters, until they are small enough.
@@ -109,14 +216,14 @@ impl Cuts<'_> {
         if self.field.is_empty_radius(bounds.least) {
             return;
         }
-        if !self.is_small(&shape, bounds) {
+        if !self.is_small(shape.longest, bounds) {
             return fragment.parts(2).for_each(|quarter| self.cut(&quarter, bounds));
         }
         let bounds = self.field.settled(bounds);
         let (area, longest) = (fragment.area(self.mesh) * bounds.density(), shape.longest / bounds.scale());
         let (area, longest) = (area as f32, longest as f32);
         let part = Patch { fragment: *fragment, open: u16::MAX, area, longest, local: bounds };
-        self.add(&shape, bounds, Piece::Part(Box::new(part)));
+        self.add(shape.centre, bounds, Piece::Part(Box::new(part)));
     }
 }
 

@@ -14,7 +14,7 @@ use crate::points::{Points, check_radius, check_resolution, finest_radius};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::field::{Quota, RadiusField};
 use crate::psp::adaptive::options::{Options, Radius, Scale};
-use crate::psp::adaptive::pieces::checked_samples;
+use crate::psp::adaptive::pieces::{MeasuredTriangles, checked_samples};
 use crate::psp::adaptive::site::GradedSurface;
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
@@ -100,12 +100,17 @@ pub fn sample(
             check_resolution("density", least, mesh.float_spacing(), "the largest coordinate of the mesh")?;
         }
         let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last), is_ordered)?;
-        let surface = ScaledSurface { mesh, field, facing, obstacles, last, estimate };
+        let triangles = if is_ordered {
+            MeasuredTriangles::kept(&job.part(0.05, 0.06), mesh, &field)?
+        } else {
+            MeasuredTriangles::of(mesh)
+        };
+        let surface = ScaledSurface { mesh, field, facing, obstacles, triangles, last, estimate };
         if !is_ordered {
             let (samples, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), last, &[])?;
             return Ok(LevelledSet { samples, radius: last, covering_radius: last, darts });
         }
-        let (job, levels) = (&job.part(0.05, 1.0), Levels::new(surface, options.seed));
+        let (job, levels) = (&job.part(0.06, 1.0), Levels::new(surface, options.seed));
         match count {
             None => levels::by_radius(job, levels, options.quotient, last),
             Some(count) => levels::by_count(job, levels, options.quotient, count, finest),
@@ -141,6 +146,7 @@ struct ScaledSurface<'a> {
     field: RadiusField<'a>,
     facing: Facing,
     obstacles: &'a Obstacles,
+    triangles: MeasuredTriangles<'a>,
     /// The scale at which the set is expected to be complete, and the approximate number of samples.
     last: f64,
     estimate: f64,
@@ -174,9 +180,9 @@ impl Levelled for ScaledSurface<'_> {
         scale: f64,
         samples: &[Self::Sample],
     ) -> Result<(Vec<Self::Sample>, u64)> {
-        let &Self { mesh, facing, obstacles, last, estimate, .. } = self;
+        let &Self { mesh, facing, obstacles, ref triangles, last, estimate, .. } = self;
         let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
-        let surface = GradedSurface { mesh, field, quota, facing, obstacles, finest: last };
+        let surface = GradedSurface { mesh, field, quota, facing, obstacles, triangles, finest: last };
         let (set, darts) = surface.fill(job, options, samples)?;
         Ok((set.into_samples(), darts))
     }

@@ -56,17 +56,33 @@ impl OctaveCubes {
         Cube(place.floor().as_ivec3().to_array())
     }
 
-    /// The cube of a piece of the surface: in the octave of its radius or, if that is above a limit that is random for
-    /// each cube, in the next larger one. Thus no seam follows a line of constant radius.
-    pub fn cube_of_piece(&self, centre: DVec3, radius: f64) -> OctaveCube {
+    /// The cubes of pieces of the surface.
+    pub fn of_pieces(&self) -> CubesOfPieces<'_> {
+        CubesOfPieces { cubes: self, last: None }
+    }
+}
+
+/// The cubes of pieces of the surface, one after the other: most of them share the limit of the piece before.
+pub struct CubesOfPieces<'a> {
+    cubes: &'a OctaveCubes,
+    /// A cube that pieces of the octave below may be in, and the least radius of those that are.
+    last: Option<(OctaveCube, f64)>,
+}
+
+impl CubesOfPieces<'_> {
+    /// The cube of a piece: in the octave of its radius or, if that is above a limit that is random for each cube, in
+    /// the next larger one. Thus no seam follows a line of constant radius.
+    pub fn cube(&mut self, centre: DVec3, radius: f64) -> OctaveCube {
         let own = octave(radius);
-        let above = OctaveCube { octave: own + 1, cube: self.cube(own + 1, centre) };
-        let limit = Rng::at(self.seed, Draw::Octave, &above.key()).unit();
-        if radius > end_of_octave(own) * exp2(limit - 1.0) {
-            above
-        } else {
-            OctaveCube { octave: own, cube: self.cube(own, centre) }
-        }
+        let above = OctaveCube { octave: own + 1, cube: self.cubes.cube(own + 1, centre) };
+        let (_, limit) = match self.last {
+            Some(last) if last.0 == above => last,
+            _ => {
+                let share = Rng::at(self.cubes.seed, Draw::Octave, &above.key()).unit();
+                *self.last.insert((above, end_of_octave(own) * exp2(share - 1.0)))
+            }
+        };
+        if radius > limit { above } else { OctaveCube { octave: own, cube: self.cubes.cube(own, centre) } }
     }
 }
 

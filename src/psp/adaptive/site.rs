@@ -11,7 +11,7 @@ use crate::math::{rounded_down, square};
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::grid::{GradedSample, Grid};
-use crate::psp::adaptive::pieces::{Piece, pieces};
+use crate::psp::adaptive::pieces::{MeasuredTriangles, Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::cubes::OctaveCube;
 use crate::psp::fill::darts::random_point;
@@ -31,6 +31,7 @@ pub struct GradedSurface<'a> {
     pub quota: &'a Quota,
     pub facing: Facing,
     pub obstacles: &'a Obstacles,
+    pub triangles: &'a MeasuredTriangles<'a>,
     /// The finest scale that is expected.
     pub finest: f64,
 }
@@ -38,10 +39,11 @@ pub struct GradedSurface<'a> {
 impl GradedSurface<'_> {
     /// A maximal set around some samples, and the number of darts.
     pub fn fill(&self, job: &Job, options: FillOptions, samples: &[(Sample, f64)]) -> Result<(AdaptiveSet, u64)> {
-        let &Self { mesh, field, quota, facing, obstacles, .. } = self;
+        let &Self { mesh, field, quota, facing, obstacles, triangles, .. } = self;
         let mut set = AdaptiveSet::new(mesh, options.seed, field.scale(), samples);
+        triangles.begin_level(samples.len(), options.throws_first);
         let stretch = options.largest_rank.map_or(1.0, |rank| (rank / field.scale()).max(1.0));
-        let pieces = pieces(&job.part(0.05, 0.2), mesh, field, quota, &set.cubes)?;
+        let pieces = pieces(&job.part(0.05, 0.2), triangles, field, quota, &set.cubes)?;
         field.check()?;
         quota.check(field.argument())?;
         let cubes: Vec<OctaveCube> = (0..pieces.len()).map(|number| pieces.key(number)).collect();
@@ -50,18 +52,19 @@ impl GradedSurface<'_> {
             let pieces: Vec<&Piece> = pieces.items(number).collect();
             let near = set.samples_around(mesh, facing, cube, stretch);
             let grid = grid(mesh, &field, facing, near, &pieces, stretch);
-            let mut ground = GradedGround::new(mesh, &field, quota, obstacles, grid, self.limit(&pieces));
+            let mut ground = GradedGround::new(triangles, &field, quota, obstacles, grid, self.limit(&pieces));
             ground = ground.ranked(options.largest_rank);
-            let (areas, mut rng) = (
-                Weights::new(pieces.iter().map(|piece| piece.area()).collect()),
-                Rng::at(options.seed, Draw::Adaptive, &cube.key()),
-            );
+            let mut rng = Rng::at(options.seed, Draw::Adaptive, &cube.key());
+            // Without first darts no random point is asked for.
+            let weighed = if options.throws_first { &pieces[..] } else { &[] };
+            let areas = Weights::new(weighed.iter().map(|piece| piece.area()).collect());
             let mut zone = CubeZone { pieces: &pieces, areas, obstacles };
             let share = open_share(&mut zone, &ground, options, &mut rng);
             fill_zone(&mut zone, &mut ground, share, options, &mut rng)?;
             field.check()?;
             quota.check(field.argument()).map(|()| ground.into_accepted())
         })?;
+        triangles.end_level(set.len());
         Ok((set, darts))
     }
 
@@ -83,15 +86,15 @@ fn grid(
     pieces: &[&Piece],
     stretch: f64,
 ) -> Grid {
-    let largest = pieces.iter().map(|piece| field.above(piece.bounds())).fold(0.0, f64::max);
+    let largest = field.above(pieces.iter().map(|piece| piece.bounds().largest).fold(0.0, f64::max));
     // The area over the number of samples that will lie on it gives their usual radius.
     let samples: f64 = pieces.iter().map(|piece| piece.area()).sum();
     let area: f64 = pieces.iter().map(|piece| piece.area() / piece.bounds().density()).sum();
     let usual = if samples > 0.0 { (area / samples).sqrt() } else { largest };
-    let corners = pieces
-        .iter()
-        .map(|piece| piece.fragment())
-        .flat_map(|fragment| fragment.corners.map(|corner| mesh.point_exact(fragment.triangle, corner)));
+    let corners = pieces.iter().flat_map(|piece| match piece {
+        Piece::Whole(whole) => mesh.exact_corners(whole.triangle),
+        Piece::Part(part) => part.fragment.corners.map(|corner| mesh.point_exact(part.fragment.triangle, corner)),
+    });
     let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let bounds = corners.fold(none, |[low, high], corner| [low.min(corner), high.max(corner)]);
     let mut grid = Grid::new(mesh, facing, bounds, [usual, largest], stretch);
@@ -191,6 +194,7 @@ const TESTS: u64 = 1 << 12;
 /// The surface in a cube.
 pub struct GradedGround<'a> {
     mesh: &'a Mesh,
+    triangles: &'a MeasuredTriangles<'a>,
     field: &'a RadiusField<'a>,
     quota: &'a Quota,
     obstacles: &'a Obstacles,
@@ -208,15 +212,16 @@ pub struct GradedGround<'a> {
 impl<'a> GradedGround<'a> {
     /// The surface, with a work limit of a few thousand tests for each of so many pieces.
     pub fn new(
-        mesh: &'a Mesh,
+        triangles: &'a MeasuredTriangles<'a>,
         field: &'a RadiusField<'a>,
         quota: &'a Quota,
         obstacles: &'a Obstacles,
         grid: Grid,
         pieces: u64,
     ) -> Self {
-        let tests = Cell::new(TESTS * (pieces + obstacles.listed() as u64));
-        Self { mesh, field, quota, obstacles, grid, tests, largest_rank: None, accepted: Vec::new(), darts: 0 }
+        let (mesh, tests) = (triangles.mesh, Cell::new(TESTS * (pieces + obstacles.listed() as u64)));
+        let (accepted, darts) = (Vec::new(), 0);
+        Self { mesh, triangles, field, quota, obstacles, grid, tests, largest_rank: None, accepted, darts }
     }
 
     /// The ground with ranks, up to the largest, for the samples that the fill adds.
@@ -315,6 +320,12 @@ impl Ground for GradedGround<'_> {
             group.triangles[lane] = std::array::from_fn(|corner| self.grid.ball(positions[corner], radii[corner]));
         }
         let open = self.grid.pages.open_triangles(&mut group, wholes.len(), |lane| self.normal(wholes[lane].triangle));
+        let covered = (0..wholes.len()).filter(|lane| self.triangles.keeps_covered() && open >> lane & 1 == 0);
+        for lane in covered {
+            let triangle = wholes[lane].triangle;
+            let share = self.grid.covering_share(&group.triangles[lane], self.normal(triangle));
+            self.triangles.cover(triangle, share * self.field.scale());
+        }
         self.obstacles.open_triangles(open, |lane| self.mesh.corners(wholes[lane].triangle))
     }
 

@@ -99,6 +99,11 @@ impl<const AXES: usize> Page<AXES> {
         (0..AXES).for_each(|axis| self.0[axis][lane] = sample[axis]);
     }
 
+    /// The sample in a lane.
+    pub fn sample(&self, lane: usize) -> [f32; AXES] {
+        std::array::from_fn(|axis| self.0[axis][lane])
+    }
+
     /// The place of the sample in a lane.
     pub fn place(&self, lane: usize) -> Place {
         [self.0[0][lane], self.0[1][lane], self.0[2][lane]]

@@ -88,6 +88,12 @@ impl<const AXES: usize> Pages<AXES> {
         self.pages[page].place(lane)
     }
 
+    /// The sample on a page and lane.
+    #[inline(always)]
+    pub fn sample(&self, page: usize, lane: usize) -> [f32; AXES] {
+        self.pages[page].sample(lane)
+    }
+
     /// The samples of a page whose squared distance from one does not exceed a limit: a bit for each.
     #[inline(always)]
     pub fn near(&self, page: usize, from: [f32; AXES], limit: f32) -> u16 {
@@ -158,10 +164,13 @@ impl<const AXES: usize> Pages<AXES> {
 
     /// True if one sample certainly covers a triangle.
     fn covers(&self, corners: &[[f32; AXES]; 3], normal: [f32; 3]) -> bool {
-        self.any_page(self.space.cell(place(&corners[0])), |number| {
-            let covering = run(self.level, Covering { page: &self.pages[number], corners, limit: self.within });
-            covering != 0 && covering & self.seen(number, &normal) != 0
-        })
+        self.any_page(self.space.cell(place(&corners[0])), |page| self.covering(page, corners, normal) != 0)
+    }
+
+    /// The samples of a page that certainly cover a triangle with a normal: a bit for each.
+    pub fn covering(&self, page: usize, corners: &[[f32; AXES]; 3], normal: [f32; 3]) -> u16 {
+        let covering = run(self.level, Covering { page: &self.pages[page], corners, limit: self.within });
+        if covering == 0 { 0 } else { covering & self.seen(page, &normal) }
     }
 
     /// True if a sample matters to a normal.
