@@ -9,8 +9,7 @@
 use crate::error::Result;
 use crate::job::{Context, Job, Progress};
 use crate::memory;
-use crate::plane::lattice::Lattice;
-use crate::plane::{CellAxis, CellGrid, Disk, Quadtree};
+use crate::plane::{CellAxis, CellGrid, Disk, Lattice, Quadtree};
 use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng};
 use crate::setters::setters;

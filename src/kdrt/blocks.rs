@@ -6,9 +6,7 @@
 //!
 //! Regular edges would leave peaks in the spectrum, so each is moved by up to a quarter of the regular width.
 
-use crate::plane::CellGrid;
-use crate::plane::lattice::Lattice;
-use crate::plane::rect::Rect;
+use crate::plane::{CellGrid, Lattice, Rect};
 use crate::points::Boundary;
 use crate::rng::{Draw, Rng, hash};
 

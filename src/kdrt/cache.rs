@@ -16,7 +16,7 @@ use crate::kdrt::{
     blocks::Blocks,
     region::{Part, Placed},
 };
-use crate::plane::rect::Rect;
+use crate::plane::Rect;
 
 /// The bytes of a cache, about: what is added at once may exceed them.
 const MOST_BYTES: usize = 1 << 25;
@@ -237,7 +237,7 @@ impl<S: Placed> Cache<S> {
 mod tests {
     use super::*;
     use crate::kdrt::progressive::Sample;
-    use crate::plane::lattice::Lattice;
+    use crate::plane::Lattice;
     use crate::points::{Boundary, Domain};
     use crate::rng::{Draw, Rng};
 

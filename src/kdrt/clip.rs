@@ -9,8 +9,7 @@ use crate::error::Result;
 use crate::index::Binned;
 use crate::job::Job;
 use crate::maximal;
-use crate::plane::lattice::Lattice;
-use crate::plane::rect::Rect;
+use crate::plane::{Lattice, Rect};
 use crate::rng::{Draw, Rng};
 
 use crate::kdrt::divide::Leaf;

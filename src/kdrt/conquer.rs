@@ -17,7 +17,7 @@ use crate::kdrt::{
     clip::{Pattern, Row},
     divide::Leaf,
 };
-use crate::plane::{CellGrid, lattice::Lattice, rect::Rect};
+use crate::plane::{CellGrid, Lattice, Rect};
 
 /// The width in radii (in lattice units: reaches) of the surroundings of a region that decide which points survive in
 /// it.

@@ -16,7 +16,7 @@ use crate::kdrt::{
     stack::{self, Base},
 };
 use crate::math::{exp, hypot, log, power};
-use crate::plane::{CellAxis, CellGrid, Quadtree, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, CellGrid, Lattice, Quadtree, Rect};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY, Points};
 use crate::rng::{Draw, Rng, hash};
 use crate::setters::setters;

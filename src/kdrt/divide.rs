@@ -4,7 +4,7 @@
 //! only the nodes that meet it, with the same leaves; and a node is split across its longer side instead of in turns,
 //! so that leaves do not become slivers.
 
-use crate::plane::rect::Rect;
+use crate::plane::Rect;
 use crate::rng::{Draw, Rng, hash};
 
 /// A leaf of the tree.

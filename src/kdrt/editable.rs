@@ -12,7 +12,7 @@ use crate::kdrt::{
     stack::require,
     tiles::Tile,
 };
-use crate::plane::lattice::Lattice;
+use crate::plane::Lattice;
 use crate::points::{Domain, Points};
 use crate::region::Region;
 
@@ -89,7 +89,7 @@ fn ground(options: &Options) -> Result<InPlane> {
         }
     };
     let (domain, lattice) = (options.domain, Lattice::new(&options.domain, radius)?);
-    require(lattice.expected_samples(), BYTES_PER_SAMPLE, "radius")?;
+    require(lattice.expected_samples(), BYTES_PER_SAMPLE, options.given.positions.len(), "radius")?;
     Ok(InPlane::new(domain, lattice, radius))
 }
 

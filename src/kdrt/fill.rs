@@ -6,7 +6,7 @@
 
 use crate::kdrt::{blocks::Block, conquer::SeamCells};
 use crate::math::square;
-use crate::plane::{CellGrid, List, Quadtree, darts, rect::Rect};
+use crate::plane::{CellGrid, List, Quadtree, Rect, darts};
 use crate::rng::Rng;
 use crate::simd::{Lanes, Work, run};
 
@@ -370,7 +370,7 @@ impl Footprints {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane::{CellAxis, lattice::Separation};
+    use crate::plane::{CellAxis, Separation};
     use crate::rng::Draw;
 
     /// A grid of cells, all of them seams.

@@ -36,7 +36,7 @@ use crate::kdrt::{
     tiling::{WINDOW_BLOCKS, cut},
 };
 use crate::memory;
-use crate::plane::{CellAxis, CellGrid, Quadtree, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, CellGrid, Lattice, Quadtree, Rect};
 use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
 use crate::setters::setters;

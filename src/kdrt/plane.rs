@@ -13,10 +13,7 @@ use crate::kdrt::{
     relative::RelativeWindow,
     stack::{BYTES_PER_SAMPLE, Base, PATTERN_SHARE, Stack, require},
 };
-use crate::plane::{
-    GivenDisks,
-    lattice::{Lattice, estimate},
-};
+use crate::plane::{GivenDisks, Lattice, estimate};
 use crate::points::{Boundary, Domain, Points, check_resolution};
 
 /// A maximal Poisson-disk set of a rectangle, in parallel: [`Plane::new`] and [`Plane::whole`] in one call.

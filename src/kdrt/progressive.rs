@@ -31,7 +31,7 @@ use crate::kdrt::{
 };
 use crate::math::{exp2, hypot, log2, pow, rounded_down};
 use crate::order::{Order, first_stride};
-use crate::plane::{CellAxis, CellGrid, GivenDisks, Quadtree, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, CellGrid, GivenDisks, Lattice, Quadtree, Rect};
 use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
 

@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::given::Given;
 use crate::job::Job;
 use crate::kdrt::tiles::{Tile, Tiles};
-use crate::plane::{CellAxis, CellGrid, Disk, GivenDisks, Quadtree, lattice::Lattice};
+use crate::plane::{CellAxis, CellGrid, Disk, GivenDisks, Lattice, Quadtree};
 use crate::points::Domain;
 use crate::region::Region;
 use crate::rng::{Draw, Rng};

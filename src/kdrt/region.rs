@@ -1,8 +1,7 @@
 //! Samples of a part of the plane, from which those of any smaller part can be extracted.
 
 use crate::index::Binned;
-use crate::plane::lattice::Lattice;
-use crate::plane::rect::Rect;
+use crate::plane::{Lattice, Rect};
 use crate::points::Boundary;
 
 /// The side of a tile in radii.

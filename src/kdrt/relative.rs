@@ -10,7 +10,7 @@
 
 use crate::error::{Error, Result};
 use crate::math::rounded_down;
-use crate::plane::{lattice::Lattice, rect::Rect};
+use crate::plane::{Lattice, Rect};
 use crate::points::{Boundary, Domain};
 
 /// The largest number of periods between a corner and the domain, so that lattice points of all images have numbers.

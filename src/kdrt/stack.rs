@@ -15,7 +15,7 @@ use crate::kdrt::{
     region::{Part, Placed, Region},
     tiling::Tiling,
 };
-use crate::plane::{CellAxis, GivenDisks, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, GivenDisks, Lattice, Rect};
 use crate::points::Domain;
 use crate::{maximal, memory};
 

@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
 use crate::job::Context;
-use crate::plane::lattice::Lattice;
-use crate::plane::rect::Rect;
+use crate::plane::{Lattice, Rect};
 
 use crate::kdrt::options::{Kind, Options, check_leaf_size};
 use crate::kdrt::tiling::{self, Tiling};

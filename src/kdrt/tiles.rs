@@ -4,7 +4,7 @@
 //! has one. Tiles are regular and 12 to 24 radii wide. Their counts are even there, so that the parities of columns and
 //! rows go on across the seam; an axis that is shorter than two tiles is one tile, which meets its own images.
 
-use crate::plane::{lattice::Lattice, rect::Rect};
+use crate::plane::{Lattice, Rect};
 use crate::points::{Boundary, Domain};
 use crate::region::Region;
 

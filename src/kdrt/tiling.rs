@@ -18,7 +18,7 @@ use crate::kdrt::{
     options::MIN_LEAF_SIZE,
 };
 use crate::math::square;
-use crate::plane::{CellAxis, CellGrid, GivenDisks, lattice::Lattice, rect::Rect};
+use crate::plane::{CellAxis, CellGrid, GivenDisks, Lattice, Rect};
 use crate::points::{Boundary, Domain};
 
 /// Fill blocks along the side of a window: about 50,000 samples, which fit in a core's own cache.
@@ -275,7 +275,7 @@ pub fn cut(blocks: &Rect, side: i32) -> Vec<Rect> {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::plane::lattice::Separation;
+    use crate::plane::Separation;
     use crate::rng::{Draw, Rng};
     use crate::simd::Level;
 

@@ -1,7 +1,7 @@
 //! Sets on meshes that are edited (`editable.rs` in the root), and the part of a set that a region needs.
 //!
 //! Only the triangles near an edit are looked at, and only the samples and the given samples around them. They are found
-//! by the cubes that the set grew in (`cubes.rs`): samples are kept by cube, and the triangles of the mesh are sorted
+//! by the cubes that the set grew in (`set/cubes.rs`): samples are kept by cube, and the triangles of the mesh are sorted
 //! into cubes once, by the first refill (departs from the thesis, which only adds samples).
 
 use std::sync::Arc;
@@ -14,17 +14,14 @@ use crate::job::{Context, Job, Progress};
 use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::psp::cubes::Cube;
-use crate::psp::fill::blocks::Blocks;
-use crate::psp::fill::extent::Extent;
-use crate::psp::fill::measures::{DENSITY, Measures, check_radius_on, require_samples};
-use crate::psp::fill::uniform::{Surface, Uniform};
-use crate::psp::fill::{FillOptions, fill_parts};
+use crate::psp::fill::{
+    Blocks, DENSITY, Extent, FillOptions, Measures, Surface, Uniform, check_radius_on, fill_parts, require_samples,
+};
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::options::RegionOptions;
 use crate::psp::report::{Report, rho};
-use crate::psp::samples::{Sample, SampleSet, surface_samples};
+use crate::psp::set::{Cube, Sample, SampleSet, surface_samples};
 use crate::region::Region;
 
 /// A set of samples on a mesh that is edited, made by [`Psp::into_editable`](super::Psp::into_editable).

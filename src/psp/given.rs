@@ -18,13 +18,12 @@ use crate::index::Binned;
 use crate::math::scalbn;
 use crate::memory;
 use crate::mesh::{Mesh, exact};
-use crate::psp::cubes::Cube;
 use crate::psp::fill::cells::{Cells, each_cell};
 use crate::psp::fill::grid::{Grid, any_cell};
 use crate::psp::fill::space::{Place, Space, key};
 use crate::psp::fill::table::Table;
 use crate::psp::fragment::{CORNERS, Cover, Facing, NO_NORMAL};
-use crate::psp::samples::SampleSet;
+use crate::psp::set::{Cube, SampleSet};
 
 /// Given samples around which a set of one radius grows.
 pub struct GivenSamples {

@@ -35,11 +35,8 @@ use crate::math::{exp, log, power, rounded_down, square};
 use crate::mesh::{Mesh, exact};
 use crate::order::{Order, first_stride};
 use crate::points::Points;
-use crate::psp::fill::FillOptions;
-use crate::psp::fill::measures::{BYTES_PER_SAMPLE, require_samples};
-use crate::psp::fill::rounds::PATCH;
-use crate::psp::fill::uniform::Surface;
-use crate::psp::samples::{Sample, SampleSet, surface_samples};
+use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, PATCH, Surface, require_samples};
+use crate::psp::set::{Sample, SampleSet, surface_samples};
 use crate::rng::{Draw, hash};
 
 /// The quotient of two radii from which a level begins with first darts, as on an empty surface: the level before
@@ -449,7 +446,7 @@ pub fn none_finer(count: usize, len: usize, finest: f64) -> Error {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::psp::fill::measures::Measures;
+    use crate::psp::fill::Measures;
     use crate::psp::fragment::Facing;
     use crate::psp::given::GivenSamples;
 

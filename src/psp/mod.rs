@@ -21,21 +21,16 @@
 
 pub mod adaptive;
 mod classes;
-mod cubes;
 mod editable;
 mod fill;
 mod fragment;
 mod given;
-mod lanes;
 mod levels;
 mod options;
 mod progressive;
 mod project;
 mod report;
-mod samples;
-mod surroundings;
-#[allow(unsafe_code)] // Vector instructions.
-mod vectors;
+mod set;
 
 pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};

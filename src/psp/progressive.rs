@@ -13,9 +13,7 @@ use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, finest_radius};
 use crate::psp::editable::{EditableSet, OnMesh};
-use crate::psp::fill::FillOptions;
-use crate::psp::fill::measures::{BYTES_PER_SAMPLE, Measures, require_samples};
-use crate::psp::fill::uniform::Surface;
+use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, Surface, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::levels::{self, Levels};
@@ -24,7 +22,7 @@ use crate::psp::project::candidates::{Collector, merge};
 use crate::psp::project::projector::{self, Projector};
 use crate::psp::project::{Projection, is_worth_projecting};
 use crate::psp::report::{Report, rho};
-use crate::psp::samples::SampleSet;
+use crate::psp::set::SampleSet;
 
 /// A set of samples on a mesh that grows, call by call.
 ///

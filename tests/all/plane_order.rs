@@ -1,7 +1,6 @@
 //! Progressive order in the plane: what holds for every prefix, from the definitions.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
 use azulejo::analysis::spectrum::{Periodogram, periodogram};
 use azulejo::kdrt::{
@@ -258,23 +257,6 @@ fn windows_do_not_depend_on_those_before() {
             }
         });
     }
-}
-
-/// The first window of a region makes its wide surroundings in every level; those after it need not.
-#[test]
-fn a_window_next_to_another_costs_little() {
-    let radius = 1e-4;
-    let options = progressive(radius, Progressive::new(), Domain::unit(Boundary::Periodic), 13);
-    let plane = Plane::new(&Context::new(2).unwrap(), &options, None).unwrap();
-    let mut seconds = [0, 1, 1, 0].map(|step| {
-        let min = [0.4 + f64::from(step) * 30.0 * radius, 0.7];
-        let start = Instant::now();
-        assert!(plane.window(min, min.map(|x| x + 30.0 * radius)).unwrap().len() > 500);
-        start.elapsed().as_secs_f64()
-    });
-    assert!(seconds[1] < seconds[0] / 4.0, "{seconds:?}");
-    seconds[2..].sort_by(f64::total_cmp);
-    assert!(seconds[2] < seconds[0] / 50.0, "{seconds:?}");
 }
 
 #[test]

@@ -135,7 +135,6 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `capacity` below the number of samples, and
 /// for `ranks` or `classes` of a plane that has none.
-#[expect(clippy::too_many_arguments, reason = "three arrays of one capacity")]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window_into(
     plane: *const azulejo_kdrt,

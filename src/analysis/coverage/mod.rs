@@ -12,7 +12,7 @@ use crate::index::{Grid2, Grid3, PointTree};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::math::{distance_squared, hypot};
 use crate::mesh::Mesh;
-use crate::plane::lattice::float_spacing;
+use crate::plane::float_spacing;
 use crate::points::{Boundary, Domain};
 use crate::psp::TOLERANCE;
 

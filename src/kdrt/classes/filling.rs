@@ -12,8 +12,7 @@
 //! so the points of a rectangle that lies in one lie in it too, and filling ends.
 
 use crate::math::square;
-use crate::plane::rect::Rect;
-use crate::plane::{Disk, darts};
+use crate::plane::{Disk, Rect, darts};
 use crate::rng::Rng;
 
 /// The number of cells of a row that a word has bits for.

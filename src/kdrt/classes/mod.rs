@@ -29,11 +29,7 @@ use crate::kdrt::{
 };
 use crate::math::rounded_down;
 use crate::memory;
-use crate::plane::{
-    CellAxis, GivenDisks,
-    lattice::{Lattice, Separation},
-    rect::Rect,
-};
+use crate::plane::{CellAxis, GivenDisks, Lattice, Rect, Separation};
 use crate::points::{Boundary, Domain, Points};
 use crate::rng::{Draw, Rng, hash};
 use crate::simd::{Lanes, Level, Work, run};
@@ -530,7 +526,7 @@ mod tests {
     use crate::job::Context;
     use crate::kdrt::classes::stack;
     use crate::kdrt::options::Options;
-    use crate::plane::lattice::Lattice;
+    use crate::plane::Lattice;
     use crate::points::{Boundary, Domain};
 
     #[test]

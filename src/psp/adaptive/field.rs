@@ -21,9 +21,9 @@ use crate::mesh::{Mesh, exact};
 use crate::points::check_resolution;
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::options::{Radius, RadiusFunction};
-use crate::psp::fill::rounds::TOLERANCE;
+use crate::psp::fill::TOLERANCE;
 use crate::psp::fragment::{Fragment, Shape};
-use crate::psp::samples::Sample;
+use crate::psp::set::Sample;
 
 /// Bounds that differ by no more than this share of the longest edge of a fragment are good enough for it: the region
 /// proved covered falls short of the covered one by half of that.

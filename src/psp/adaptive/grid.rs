@@ -7,10 +7,7 @@ use glam::DVec3;
 
 use crate::math::{distance_squared, square};
 use crate::mesh::Mesh;
-use crate::psp::fill::cells::Cells;
-use crate::psp::fill::page::{BEYOND, LANES};
-use crate::psp::fill::pages::Pages;
-use crate::psp::fill::space::{Place, Space};
+use crate::psp::fill::{BEYOND, Cells, LANES, Pages, Place, Space};
 use crate::psp::fragment::Facing;
 
 /// The share by which rounding can increase the distance at which a sample matters, and some more.
@@ -177,7 +174,8 @@ mod tests {
     use crate::mesh::exact;
     use crate::psp::adaptive::field::RadiusField;
     use crate::psp::adaptive::options::Radius;
-    use crate::psp::fill::page::{Group, WITHIN};
+    use crate::psp::fill::Group;
+    use crate::psp::fill::page::WITHIN;
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
     use crate::simd::Level;

@@ -12,10 +12,9 @@ use crate::job::{Chunks, Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::set::{CubesOfPieces, OctaveCubes};
-use crate::psp::cubes::OctaveCube;
-use crate::psp::fill::measures::{expected_samples_of, longest_edge, require_samples};
-use crate::psp::fill::rounds::{Patch, Whole};
+use crate::psp::fill::{Patch, Whole, expected_samples_of, longest_edge, require_samples};
 use crate::psp::fragment::{Fragment, Shape, slice};
+use crate::psp::set::OctaveCube;
 
 /// Triangles per task.
 const CHUNK: usize = 1024;

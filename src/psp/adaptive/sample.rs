@@ -22,7 +22,7 @@ use crate::psp::given::{Obstacles, require_clearances};
 use crate::psp::levels::{self, Levelled, LevelledSet, Levels, Ranked, top};
 use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
-use crate::psp::samples::Sample;
+use crate::psp::set::Sample;
 
 /// A maximal set of samples, each with its own radius ([`Points::radii`]): in the order in which they were accepted, or
 /// in progressive order.

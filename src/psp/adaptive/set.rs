@@ -2,7 +2,7 @@
 //! each.
 //!
 //! The cubes of an octave measure [`SIDE`] of its largest radius. Samples accepted in a cube conflict with none in
-//! another cube of its colour, as in `psp/cubes.rs`; those of octaves of smaller radii precede them, and those of
+//! another cube of its colour, as in `psp/set/cubes.rs`; those of octaves of smaller radii precede them, and those of
 //! octaves of larger radii have to fit in. In this order a sample of a large radius does not displace many of small
 //! ones where the radius jumps.
 //!
@@ -15,9 +15,8 @@ use crate::math::{exp2, scalbn};
 use crate::mesh::{Mesh, exact};
 use crate::psp::adaptive::grid::GradedSample;
 use crate::psp::adaptive::pieces::LONGEST;
-use crate::psp::cubes::{Cube, Cubes, Growing, OctaveCube};
 use crate::psp::fragment::Facing;
-use crate::psp::samples::Sample;
+use crate::psp::set::{Cube, Cubes, Growing, OctaveCube, Sample};
 use crate::rng::{Draw, Rng};
 
 /// The side of a cube, in units of the largest radius of its octave.

@@ -13,14 +13,13 @@ use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::grid::{GradedSample, Grid};
 use crate::psp::adaptive::pieces::{MeasuredTriangles, Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
-use crate::psp::cubes::OctaveCube;
-use crate::psp::fill::darts::random_point;
-use crate::psp::fill::page::{GROUP, Group};
-use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole, throw};
-use crate::psp::fill::{FIRST_DARTS, FillOptions, PROBES_IN_CUBE, Zone, fill_zone, open_share};
+use crate::psp::fill::{
+    FIRST_DARTS, FillOptions, GROUP, Ground, Group, Open, PATCH, PROBES_IN_CUBE, Patch, Point, WHOLE, Whole, Zone,
+    fill_zone, open_share, random_point, throw,
+};
 use crate::psp::fragment::{Facing, Fragment};
 use crate::psp::given::Obstacles;
-use crate::psp::samples::Sample;
+use crate::psp::set::{OctaveCube, Sample};
 use crate::rng::{Draw, Rng};
 
 /// A surface to be filled where the radius varies, and the samples given on it.

@@ -9,7 +9,7 @@ use crate::psp::classes::site::{Group, Places};
 use crate::psp::fill::FillOptions;
 use crate::psp::levels::{Levelled, Levels, by_radius, top};
 use crate::psp::options::{ClassOptions, check_quotient};
-use crate::psp::samples::Sample;
+use crate::psp::set::Sample;
 
 /// The levels of a group: its own radius, and the radii between its classes, are multiplied by one number. Those to
 /// earlier classes stay.

@@ -20,12 +20,12 @@ use crate::mesh::Mesh;
 use crate::points::{Points, check_resolution};
 use crate::psp::classes::levels::{GroupLevels, is_ranked};
 use crate::psp::classes::site::Places;
-use crate::psp::fill::measures::{Measures, require_samples};
+use crate::psp::fill::{Measures, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
 use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
-use crate::psp::samples::surface_samples;
+use crate::psp::set::surface_samples;
 use crate::rng::{Draw, hash};
 
 /// Peak memory for each sample that the classes would have alone; in progressive order.

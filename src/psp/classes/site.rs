@@ -11,17 +11,13 @@ use crate::job::Job;
 use crate::math::rounded_down;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::classes::layers::Layers;
-use crate::psp::fill::blocks::Block;
-use crate::psp::fill::extent::Extent;
-use crate::psp::fill::measures::Measures;
-use crate::psp::fill::page::GROUP;
-use crate::psp::fill::rounds::{Ground, Open, Patch, Point, Whole};
-use crate::psp::fill::space::Space;
-use crate::psp::fill::uniform::UniformGround;
-use crate::psp::fill::{FillOptions, ONE_PIECE, Site, fill};
+use crate::psp::fill::{
+    Block, Extent, FillOptions, GROUP, Ground, Measures, ONE_PIECE, Open, Patch, Point, Site, Space, UniformGround,
+    Whole, fill,
+};
 use crate::psp::fragment::{Facing, Fragment};
 use crate::psp::given::Obstacles;
-use crate::psp::samples::{RADIUS_SLACK, Sample, SampleSet};
+use crate::psp::set::{RADIUS_SLACK, Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
 /// Cubes are so large that no radius is above this multiple of their own: half of the twelve between the samples

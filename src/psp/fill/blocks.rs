@@ -1,4 +1,4 @@
-//! The surface in blocks, the cubes of `psp/cubes.rs`: the triangles that each has to fill, and random points on them.
+//! The surface in blocks, the cubes of `psp/set/cubes.rs`: the triangles that each has to fill, and random points on them.
 //!
 //! A triangle belongs to the cube of its first corner. Triangles longer than a quarter of a cube are first cut into
 //! pieces, which belong to the cubes of their first corners. So nothing extends far out of its cube, and cubes of one
@@ -12,13 +12,12 @@ use crate::error::Result;
 use crate::index::{Binned, Weights};
 use crate::job::{Job, chunks_of};
 use crate::mesh::{Mesh, exact};
-use crate::psp::cubes::{Cube, Numbers, SIDE};
 use crate::psp::fill::darts::random_point;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::measures::{Ball, CLUSTER, Measures, Triangles};
 use crate::psp::fill::rounds::{PATCH, Point};
 use crate::psp::fragment::{Fragment, slice};
-use crate::psp::samples::SampleSet;
+use crate::psp::set::{Cube, Numbers, SIDE, SampleSet};
 use crate::region::Region;
 use crate::rng::Rng;
 

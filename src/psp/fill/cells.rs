@@ -7,7 +7,7 @@ use crate::psp::fill::extent::Extent;
 use crate::psp::fill::space::{KEY, Space};
 use crate::psp::fill::table::Table;
 
-/// The largest number of cells of a box. A cube of `psp/cubes.rs` has 16 along an axis, or 32 where triangles are long.
+/// The largest number of cells of a box. A cube of `psp/set/cubes.rs` has 16 along an axis, or 32 where triangles are long.
 const MOST: u32 = 1 << 15;
 
 /// A value for each cell.

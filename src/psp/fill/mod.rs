@@ -4,7 +4,7 @@
 //! triangles drops those that a single sample covers, which are nearly all of them, and rounds of darts close the open
 //! parts. A mesh thus costs two short passes, and the rest is proportional to the samples.
 //!
-//! If many samples are expected, each cube of space is filled by itself, in the colours of `psp/cubes.rs`: its samples
+//! If many samples are expected, each cube of space is filled by itself, in the colours of `psp/set/cubes.rs`: its samples
 //! then stay in the cache, and threads share the cubes. Few samples are made in one piece, since sorting the triangles
 //! costs more.
 //!
@@ -25,6 +25,19 @@ pub mod space;
 pub mod table;
 pub mod uniform;
 
+pub use blocks::{Block, Blocks};
+pub use cells::Cells;
+pub use darts::random_point;
+pub use extent::Extent;
+pub use measures::{
+    BYTES_PER_SAMPLE, DENSITY, Measures, check_radius_on, expected_samples_of, longest_edge, require_samples,
+};
+pub use page::{BEYOND, GROUP, Group, LANES};
+pub use pages::Pages;
+pub use rounds::{Ground, Open, PATCH, Patch, Point, TOLERANCE, WHOLE, Whole, throw};
+pub use space::{Place, Space};
+pub use uniform::{Surface, Uniform, UniformGround};
+
 use std::ops::AddAssign;
 
 use crate::error::Result;
@@ -32,14 +45,13 @@ use crate::index::Weights;
 use crate::job::{Chunks, Job, chunks_of};
 use crate::math::power;
 use crate::mesh::Mesh;
-use crate::psp::cubes::Cube;
-use crate::psp::fill::blocks::{Block, Blocks, ItemRow};
-use crate::psp::fill::darts::{PoissonProcess, random_point, shuffle};
-use crate::psp::fill::measures::{Measures, Triangles};
-use crate::psp::fill::rounds::{Ground, Open, PATCH, Point, rounds, throw};
-use crate::psp::fill::uniform::UniformGround;
+use crate::psp::fill::blocks::ItemRow;
+use crate::psp::fill::darts::PoissonProcess;
+use crate::psp::fill::darts::shuffle;
+use crate::psp::fill::measures::Triangles;
+use crate::psp::fill::rounds::rounds;
 use crate::psp::fragment::Fragment;
-use crate::psp::samples::{Sample, SampleSet};
+use crate::psp::set::{Cube, Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
 /// The number of expected samples up to which a surface is filled in one piece.
@@ -241,8 +253,10 @@ pub fn fill<S: Site>(
     let mut ground = site.ground(None);
     samples.all().iter().for_each(|sample| S::add(&mut ground, sample));
     let chunks = chunks_of(site.measures().triangles().clusters(), CHUNK);
-    let (mut zone, mut rng) =
-        (Whole { site, job: *job, seed: options.seed, chunks, areas: None }, Rng::at(options.seed, Draw::Fill, &[]));
+    let (mut zone, mut rng) = (
+        WholeSurface { site, job: *job, seed: options.seed, chunks, areas: None },
+        Rng::at(options.seed, Draw::Fill, &[]),
+    );
     let share = open_share(&mut zone, &ground, options, &mut rng);
     let open_area = fill_zone(&mut zone, &mut ground, share, options, &mut rng);
     // Accepted samples are kept, even if the job is cancelled.
@@ -322,7 +336,7 @@ fn open_area<S: Site>(site: &S, ground: &S::Ground<'_>, open: &Open<S::Kind>, pr
 }
 
 /// A whole surface.
-struct Whole<'a, S> {
+struct WholeSurface<'a, S> {
     site: &'a S,
     job: Job<'a>,
     seed: u64,
@@ -331,7 +345,7 @@ struct Whole<'a, S> {
     areas: Option<Weights>,
 }
 
-impl<'a, S: Site> Zone for Whole<'a, S> {
+impl<'a, S: Site> Zone for WholeSurface<'a, S> {
     type Ground = S::Ground<'a>;
 
     fn is_bare(&self) -> bool {

@@ -14,7 +14,7 @@ use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
 use crate::psp::fragment::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, Facing, NO_NORMAL, PIERCING, PIERCING_BY_EDGE};
 use crate::simd::{HALF, Lanes, Level, Work, run};
 
-/// The number of pages that memory is reserved for at first: a cube of `psp/cubes.rs` hardly has more.
+/// The number of pages that memory is reserved for at first: a cube of `psp/set/cubes.rs` hardly has more.
 const PAGES: usize = 1 << 9;
 
 /// Samples by the cells that their balls touch.

@@ -6,7 +6,7 @@ pub struct Table<T> {
     len: usize,
 }
 
-/// The initial number of slots: usually enough for the cells of a cube of `psp/cubes.rs`.
+/// The initial number of slots: usually enough for the cells of a cube of `psp/set/cubes.rs`.
 const SLOTS: usize = 1 << 10;
 
 /// A key that no cell has.

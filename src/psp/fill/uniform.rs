@@ -17,7 +17,7 @@ use crate::psp::fill::space::Space;
 use crate::psp::fill::{FillOptions, Filled, ONE_PIECE, Site, fill};
 use crate::psp::fragment::{Facing, Fragment, NO_NORMAL, SIXTEENTHS, slice};
 use crate::psp::given::{GivenSamples, Obstacles};
-use crate::psp::samples::{Sample, SampleSet};
+use crate::psp::set::{Sample, SampleSet};
 use crate::rng::{Draw, Rng};
 
 /// A surface to be filled with samples of one radius, and the given samples around which it is filled.
@@ -442,7 +442,7 @@ mod tests {
     use crate::mesh::exact;
     use crate::psp::fill::darts::random_point;
     use crate::psp::given::GivenSamples;
-    use crate::psp::samples::SampleSet;
+    use crate::psp::set::SampleSet;
     use crate::rng::{Draw, Rng};
 
     /// Small and large triangles, at the origin and far from it, down to radii of 64 float spacings.

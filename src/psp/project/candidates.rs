@@ -12,11 +12,10 @@ use crate::error::Result;
 use crate::index::Buckets;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact, round_barycentrics};
-use crate::psp::cubes::Cube;
 use crate::psp::given::GivenSamples;
 use crate::psp::options::Priority;
 use crate::psp::project::projector::Projector;
-use crate::psp::samples::{Sample, SampleSet};
+use crate::psp::set::{Cube, Sample, SampleSet};
 use crate::trace::Hit;
 
 /// The resolution of the squareness of a hit.

@@ -14,7 +14,7 @@ mod tests;
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
-use crate::psp::fill::measures::DENSITY;
+use crate::psp::fill::DENSITY;
 use crate::psp::options::{Engine, ProjectionOptions};
 use crate::psp::project::candidates::{Candidates, Collector};
 use crate::psp::project::projector::Projector;

@@ -10,7 +10,7 @@ use crate::psp::options::{Engine, Priority, ProjectionOptions};
 use crate::psp::project::Projection;
 use crate::psp::project::candidates::Collector;
 use crate::psp::project::projector::{Projector, frame};
-use crate::psp::samples::{Sample, SampleSet};
+use crate::psp::set::{Sample, SampleSet};
 
 #[path = "../../../tests/all/common/meshes.rs"]
 #[allow(dead_code)]

@@ -1,11 +1,18 @@
 //! Samples, and sets of samples of one radius.
 
+mod cubes;
+mod lanes;
+mod surroundings;
+#[allow(unsafe_code)] // Vector instructions.
+mod vectors;
+
+pub use cubes::{Cube, Cubes, Growing, Numbers, OctaveCube, SIDE};
+pub use surroundings::Surroundings;
+
 use crate::index::Binned;
 use crate::math::distance_squared;
 use crate::mesh::{Mesh, exact_point};
 use crate::points::Points;
-use crate::psp::cubes::{Cube, Cubes, Growing, Numbers, OctaveCube, SIDE};
-use crate::psp::surroundings::Surroundings;
 
 /// A point of the surface.
 #[derive(Clone, Copy, Debug)]

@@ -3,12 +3,12 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::*;
 
-use crate::psp::lanes::{self, PointLanes};
+use crate::psp::set::lanes::{self, PointLanes};
 use crate::simd::Level;
 
 /// [`lanes::within`].
 #[inline]
-pub(super) fn within(vectors: Level, places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
+pub fn within(vectors: Level, places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
     match vectors {
         Level::Portable => lanes::within(places, point, reach2),
         // SAFETY: the token is proof that the processor has the instructions.
@@ -32,7 +32,7 @@ fn within_avx2([x, y, z]: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::psp::lanes::FAR;
+    use crate::psp::set::lanes::FAR;
     use crate::rng::{Draw, Rng};
 
     #[test]

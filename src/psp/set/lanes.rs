@@ -5,19 +5,19 @@
 
 /// The amount that rounding can add to a squared distance of about 1, and some more. Places in a cube's surroundings
 /// are off by 2^-21 on each axis, which makes 3.3e-6 for two of them.
-pub(super) const SLACK: f32 = 1e-5;
+pub const SLACK: f32 = 1e-5;
 
 /// The number of points that are tested together.
-pub(super) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 /// A coordinate for lanes without a point. Its square is a float.
-pub(super) const FAR: f32 = 1e18;
+pub const FAR: f32 = 1e18;
 
 /// A few points, one axis after the other; places without a point are [`FAR`] away.
-pub(super) type PointLanes = [[f32; LANES]; 3];
+pub type PointLanes = [[f32; LANES]; 3];
 
 /// The points that are no farther than the square root of `reach2` from a point: a bit for each.
-pub(super) fn within(places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
+pub fn within(places: &PointLanes, point: [f32; 3], reach2: f32) -> u8 {
     let mut within = 0;
     let [xs, ys, zs] = places;
     for (lane, ((x, y), z)) in xs.iter().zip(ys).zip(zs).enumerate() {

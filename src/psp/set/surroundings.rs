@@ -4,9 +4,9 @@ use glam::{DVec3, Vec3A};
 
 use crate::math::distance_squared;
 use crate::mesh::exact;
-use crate::psp::cubes::{Cube, SIDE};
-use crate::psp::lanes::{FAR, LANES, PointLanes, SLACK};
-use crate::psp::vectors;
+use crate::psp::set::cubes::{Cube, SIDE};
+use crate::psp::set::lanes::{FAR, LANES, PointLanes, SLACK};
+use crate::psp::set::vectors;
 use crate::simd::Level;
 
 /// The distance by which the grid extends beyond the cube, in radii. Searches extend to one radius from points in the
@@ -25,7 +25,7 @@ const NONE: u16 = u16::MAX;
 
 /// Conflict-free points in and around a cube. There are at most sqrt(2) for each cube of side one radius, the densest
 /// packing, and some along the boundary: a `u16` counts them.
-pub(super) struct Surroundings {
+pub struct Surroundings {
     radius: f64,
     centre: DVec3,
     per_radius: f64,
