@@ -1,6 +1,5 @@
 /*
  * DCR: relaxation of point sets in the plane, with a density, and on meshes.
- *
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -13,36 +12,30 @@
 extern "C" {
 #endif
 
-/// A point's neighbours are those of the Delaunay triangulation: they keep their distance and close
-/// holes.
+/// Neighbours by the Delaunay triangulation: they keep their distance and close holes.
 #define AZULEJO_NEIGHBOURHOOD_DELAUNAY 0
 
-/// A point's neighbours are its nearest points: they only repel.
-#define AZULEJO_NEIGHBOURHOOD_NEAREST 1
+#define AZULEJO_NEIGHBOURHOOD_NEAREST 1 ///< The nearest points: they only repel.
 
 /// The momentum method, the default: neighbours in conflict push each other away, holes pull the
 /// points around them, points have momentum, and long waves of the density are removed.
 #define AZULEJO_METHOD_MOMENTUM 0
 
-/// The algorithm of thesis chapter 4.
-#define AZULEJO_METHOD_THESIS 1
+#define AZULEJO_METHOD_THESIS 1 ///< The algorithm of thesis chapter 4.
 
-/// The tension of an edge is divided between its ends according to their activeness: the default.
+/// Tension is divided between the ends of an edge by their activeness.
 #define AZULEJO_DISTRIBUTION_ACTIVENESS 0
 
-/// Half of the tension goes to each end.
-#define AZULEJO_DISTRIBUTION_AVERAGE 1
+#define AZULEJO_DISTRIBUTION_AVERAGE 1 ///< Half of the tension goes to each end.
 
-/// All of the tension goes to the neighbour.
-#define AZULEJO_DISTRIBUTION_DOMINANT 2
+#define AZULEJO_DISTRIBUTION_DOMINANT 2 ///< All of the tension goes to the neighbour.
 
-/// All of the tension goes to the point itself.
-#define AZULEJO_DISTRIBUTION_ZERO 3
+#define AZULEJO_DISTRIBUTION_ZERO 3 ///< All of the tension goes to the point itself.
 
-/// 80 per cent of the tension goes to the point itself, 20 to the neighbour.
+/// 80 per cent of the tension goes to the point, 20 to the neighbour.
 #define AZULEJO_DISTRIBUTION_EIGHTY_TWENTY 4
 
-/// An edge is visited from each end that has the other one in its neighbourhood: the default.
+/// An edge is visited from each end that has the other one as a neighbour.
 #define AZULEJO_VISITS_BOTH_ENDS 0
 
 /// An edge is visited from one end, the same in every step, chosen by a hash of the seed and the
@@ -50,100 +43,72 @@ extern "C" {
 /// Delaunay neighbours too.
 #define AZULEJO_VISITS_ONE_END 1
 
-/// A set has converged when the motion falls to the tolerance: the default.
+/// A set has converged when the motion falls to the tolerance.
 #define AZULEJO_CONVERGENCE_MOTION 0
 
 /// A set has converged when ten times in succession the variance of the distances to the nearest
 /// point changes by less than 0.1 per cent in a step and more than 99 per cent of the points move
-/// by less than 0.01 d_max (thesis section 4.4.2). The smaller the step, the earlier that happens;
-/// in sets of a few hundred points it may never happen.
+/// by less than 0.01 d_max (thesis section 4.4.2). Sets of a few hundred points may never do so.
 #define AZULEJO_CONVERGENCE_VARIANCE 1
 
 /// The set converged, or there was nothing to move. With AZULEJO_METHOD_MOMENTUM and Delaunay
-/// neighbours no points are then closer than 0.85 d_max and no circumradius is above 0.67 d_max, up
-/// to the last step.
+/// neighbours no points are closer than 0.85 d_max then, and no circumradius is above 0.67 d_max.
 #define AZULEJO_STOPPED_CONVERGED 0
 
-/// All steps were made.
-#define AZULEJO_STOPPED_STEPS 1
+#define AZULEJO_STOPPED_STEPS 1 ///< All steps were made.
 
-/// The progress callback cancelled the call.
-#define AZULEJO_STOPPED_CANCELLED 2
+#define AZULEJO_STOPPED_CANCELLED 2 ///< The progress callback cancelled the call.
 
-/// Options of azulejo_dcr_relax, azulejo_dcr_relax_density and azulejo_dcr_scatter. The latter uses
-/// only the domain, the boundary, the seed and the progress callback; the struct is shared so that
-/// a scattered set is relaxed on the same domain.
-///
-/// The fields from `conflict_radius` on are settings of AZULEJO_METHOD_THESIS; with
-/// AZULEJO_METHOD_MOMENTUM they must have their defaults.
+/// Options of azulejo_dcr_relax, azulejo_dcr_relax_classes, azulejo_dcr_relax_density and
+/// azulejo_dcr_scatter; the last one uses only the domain, the boundary, the seed and the progress
+/// callback. The fields from `conflict_radius` on are settings of AZULEJO_METHOD_THESIS, with
+/// lengths in units of d_max; with AZULEJO_METHOD_MOMENTUM they must have their defaults.
 typedef struct azulejo_dcr_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// An AZULEJO_BOUNDARY_ constant; default periodic.
-    uint32_t boundary;
-    /// The lower corner of the domain, x y; finite; default 0 0.
-    double domain_min[2];
-    /// The upper corner of the domain, x y; finite and above the lower corner on both axes; default
-    /// 1 1. Neither side may be longer than 2^100 times the other.
-    double domain_max[2];
-    /// An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
-    uint32_t neighbourhood;
-    /// An AZULEJO_METHOD_ constant; default momentum.
-    uint32_t method;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
+    double domain_min[2]; ///< The lower corner of the domain, x y; default 0 0.
+    double domain_max[2]; ///< The upper corner, as in azulejo_plane_set; default 1 1.
+    uint32_t neighbourhood; ///< An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
+    uint32_t method; ///< An AZULEJO_METHOD_ constant; default momentum.
     /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
     /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
     /// ends earlier when the set has converged.
     uint32_t max_iterations;
-    /// Must be 0.
-    uint32_t reserved;
+    uint32_t reserved; ///< Must be 0.
     /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
-    /// azulejo_dcr_relax_density those of a clustered set's redistribution; any number, default 0.
+    /// azulejo_dcr_relax_density those of a clustered set's redistribution; default 0.
     uint64_t seed;
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
     /// with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
     double tolerance;
-    /// Called during the call; default NULL: the callback of the context, if it has one.
-    azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
-    /// Neighbours closer than this, in units of d_max, repel each other; above 0, at most 1;
-    /// default 0.95.
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
+    void *progress_user; ///< Passed to the progress callback.
+    /// Neighbours closer than this repel each other; above 0, at most 1; default 0.95.
     double conflict_radius;
-    /// Delaunay neighbours farther apart than this, in units of d_max, attract each other; at least
-    /// conflict_radius; default 1.05.
+    /// Farther Delaunay neighbours attract each other; at least conflict_radius; default 1.05.
     double attraction_radius;
-    /// The displacement by a tension of 1, in units of d_max; above 0, at most 1; default 0.05.
-    double step;
+    double step; ///< The displacement by a tension of 1; above 0, at most 1; default 0.05.
     /// The factor of `step` from one step to the next; above 0, at most 1; default 1. All steps
     /// together are no longer than step / (1 - decay); from a random start about 10 are needed.
     double decay;
-    /// The number of neighbours of AZULEJO_NEIGHBOURHOOD_NEAREST; at least 1; default 6.
-    uint32_t neighbours;
-    /// An AZULEJO_DISTRIBUTION_ constant (thesis figure 4.19); default activeness.
+    uint32_t neighbours; ///< Of AZULEJO_NEIGHBOURHOOD_NEAREST: their number; at least 1; default 6.
+    /// An AZULEJO_DISTRIBUTION_ constant (thesis fig. 4.19); default activeness.
     uint32_t distribution;
-    /// An AZULEJO_VISITS_ constant; default both ends.
-    uint32_t visits;
-    /// An AZULEJO_CONVERGENCE_ constant; default motion.
-    uint32_t convergence;
+    uint32_t visits; ///< An AZULEJO_VISITS_ constant; default both ends.
+    uint32_t convergence; ///< An AZULEJO_CONVERGENCE_ constant; default motion.
 } azulejo_dcr_options;
 
-/// The report of azulejo_dcr_relax and azulejo_dcr_relax_density.
+/// The report of azulejo_dcr_relax, _relax_classes and _relax_density.
 typedef struct azulejo_dcr_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// The steps made.
-    uint32_t iterations;
-    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    uint32_t stopped;
-    /// Always 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t iterations; ///< The steps made.
+    uint32_t stopped; ///< Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    uint32_t reserved; ///< Always 0.
     /// Half of the distance that points moved, root mean square, in units of d_max: over the last
-    /// 10 steps, or with AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2, so that
-    /// it does not depend on the step size.
+    /// 10 steps, or with AZULEJO_METHOD_THESIS over the last steps whose sizes add up to 2.
     double motion;
-    /// The smallest distance between two of the points, in the units of the domain; infinite for
-    /// fewer than two points.
+    /// The smallest distance between two points; infinite for fewer than two.
     double smallest_distance;
     /// The smallest distance in units of d_max: about 0.77 for a maximal Poisson-disk set, at most
     /// 1 on a periodic domain; infinite for fewer than two points.
@@ -152,42 +117,26 @@ typedef struct azulejo_dcr_report {
     double relative_covering_radius;
 } azulejo_dcr_report;
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 azulejo_status azulejo_dcr_options_init(azulejo_dcr_options *options, size_t struct_size);
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 azulejo_status azulejo_dcr_report_init(azulejo_dcr_report *report, size_t struct_size);
 
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
-/// the set has converged or all steps are made (thesis chapter 4).
-///
-/// AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which points are
-/// crowded in some places and missing in others: any set ends as a random one does, and after about
-/// the same time. A call that makes all steps succeeds whether or not it has converged; the report
-/// has the figures.
-///
-/// With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours the result is, of the set before the first
-/// step and the states after whole steps, the one in which the fewest points have a neighbour
-/// closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max. Otherwise it
-/// is the set after the last whole step. A call that its progress callback cancels succeeds with
-/// what there is then, and AZULEJO_STOPPED_CANCELLED in the report.
-///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// out: the points, in the same order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(count) time for each step from evenly spread points. O(count * log count) where the
-/// triangulation is built again: in each step of AZULEJO_METHOD_THESIS, and with
-/// AZULEJO_METHOD_MOMENTUM while more than 64 points have holes as wide as the domain. A bounded
-/// domain takes up to four times the time and memory of a periodic one. O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// the set has converged or all steps are made, with which the call succeeds as well (thesis
+/// chapter 4). AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which
+/// points are crowded in some places and missing in others: any set ends as a random one does, and
+/// after about the same time.
+/// - positions: the points, x y each.
+/// - out: the points, in the same order. With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours, of
+///   the set before the first step and the states after whole steps the one in which the fewest
+///   points have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius
+///   above 0.67 d_max; otherwise the state after the last whole step.
+/// - O(count) time for each step, O(count * log count) where the triangulation is built again: in
+///   each step of AZULEJO_METHOD_THESIS, with AZULEJO_METHOD_MOMENTUM while more than 64 points
+///   have holes as wide as the domain. A bounded domain takes up to four times the time and memory
+///   of a periodic one. O(count) memory.
 azulejo_status azulejo_dcr_relax(const azulejo_context *context,
                                  const azulejo_dcr_options *options,
                                  const float *positions,
@@ -195,37 +144,22 @@ azulejo_status azulejo_dcr_relax(const azulejo_context *context,
                                  azulejo_points **out,
                                  azulejo_dcr_report *report);
 
-/// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union
-/// of all points and each class by itself get more even. They cannot be as even as a set of one
-/// class, as a good lattice does not divide into good lattices: from maximal sets of 2 to 7
-/// classes of a periodic domain, rho ends above 0.7 and the covering radius below 0.82 d_max,
-/// in the union and in each class, where before some covering radii were 1 d_max and more. No
-/// distance between points of two classes is promised.
-///
-/// Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. The result is the set
-/// after the last whole step; it mostly makes all of them. A class whose points are crowded in
-/// some places and missing in others is levelled before the first step. A call that its
-/// progress callback cancels succeeds with what there is then, and AZULEJO_STOPPED_CANCELLED in
-/// the report.
-///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// classes: the class of each point, below class_count; `count` of them.
-///
-/// class_count: the number of classes, at least 1 and at most AZULEJO_MAX_CLASSES.
-///
-/// class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
-/// `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
-/// number of points; infinite where a class has fewer than two points, or none.
-///
-/// out: the points, in the same order, to be freed with azulejo_points_free.
-///
-/// report: what the call did, with the figures of the union, or NULL.
-///
-/// About 2.5 times the time of azulejo_dcr_relax, and O(count) memory. Source: the constraints
-/// of thesis chapter 4 for each of the sets; several classes after Wei 2010.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, AZULEJO_ERROR_TOO_LARGE.
+/// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union of
+/// all points and each class by itself get more even, though less so than a set of one class. From
+/// maximal sets of 2 to 7 classes of a periodic domain, rho ends above 0.7 and the covering radius
+/// below 0.82 d_max, in the union and in each class. No distance between points of two classes is
+/// promised. A class that is clustered is levelled before the first step. Only
+/// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. Source: the constraints of thesis
+/// chapter 4 for each of the sets; several classes after Wei 2010.
+/// - positions: the points, x y each.
+/// - classes: the class of each point, below class_count.
+/// - class_count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
+/// - class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
+///   `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
+///   number of points; infinite where a class has fewer than two points, or none.
+/// - out: the points after the last whole step, in the same order. Mostly all steps are made.
+/// - report: what the call did, with the figures of the union.
+/// - O(count) memory, and about 2.5 times the time of azulejo_dcr_relax.
 azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
                                          const azulejo_dcr_options *options,
                                          const float *positions,
@@ -237,63 +171,32 @@ azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
                                          azulejo_points **out,
                                          azulejo_dcr_report *report);
 
-/// Gives the density at a position.
-///
-/// It is called on other threads than the one that made the call, by several at once, unless the
-/// context has one thread: then on that thread only. It must be thread-safe, return (see
-/// "Callbacks" at the top), and must not call the library with the same context. It is called once
-/// for each place of a lattice of up to some hundred places per point: by azulejo_dcr_relax_density
-/// before its first report of progress, by azulejo_dcr_scatter after that.
-///
-/// user: the `function_user` of the azulejo_density.
-///
-/// position: x y of a place in the domain.
-///
-/// Returns the density, finite and at least 0.
+/// Gives the density at a position, at least 0. See "Callbacks" in azulejo.h. It is called once for
+/// each place of a lattice of up to some hundred places per point.
+/// - user: the `function_user` of the azulejo_density.
+/// - position: x y of a place in the domain.
 typedef double (*azulejo_density_fn)(void *user, const double *position);
 
 /// A density of points from place to place, in any unit: twice the density gives the same set.
-/// Densities are finite, at least 0, and not 0 everywhere; where they are 0 no points are wanted.
-/// Either `values` or `function` must be set.
+/// Densities are at least 0, and not 0 everywhere; where they are 0 no points are wanted. Either
+/// `values` or `function` must be set; what is not set has its default, NULL or 0.
 typedef struct azulejo_density {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Must be 0.
-    uint32_t reserved;
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Must be 0.
     /// An image that is stretched over the domain, linear between the centres of its pixels:
-    /// `height` rows of `width` densities, the first row along the lower edge of the domain
-    /// (domain_min[1]). Used during the call only. NULL, the default, if `function` is set.
+    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]).
     const float *values;
-    /// The number of pixels in a row, at least 1. Must be 0, the default, if `function` is set.
-    size_t width;
-    /// The number of rows, at least 1. Must be 0, the default, if `function` is set.
-    size_t height;
-    /// Gives the density at a position. NULL, the default, if `values` is set.
-    azulejo_density_fn function;
-    /// Passed to `function`.
-    void *function_user;
+    size_t width; ///< The number of pixels in a row.
+    size_t height; ///< The number of rows.
+    azulejo_density_fn function; ///< Gives the density at a position.
+    void *function_user; ///< Passed to `function`.
 } azulejo_density;
 
-/// Writes the defaults. `struct_size` is sizeof *density.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 azulejo_status azulejo_density_init(azulejo_density *density, size_t struct_size);
 
-/// Makes random points with a density: a start for azulejo_dcr_relax_density.
-///
-/// options: the domain, the boundary, the seed and the progress callback are used; the other fields
-/// are checked only.
-///
-/// density: the density of the points.
-///
-/// count: the number of points.
-///
-/// out: the points, x y each, to be freed with azulejo_points_free.
-///
-/// O(count * log count) time, and O(count) calls of a density function; O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
-/// everywhere; AZULEJO_ERROR_TOO_LARGE; AZULEJO_ERROR_CANCELLED.
+/// Makes `count` random points with a density: a start for azulejo_dcr_relax_density. O(count * log
+/// count) time, and O(count) calls of a density function; O(count) memory.
 azulejo_status azulejo_dcr_scatter(const azulejo_context *context,
                                    const azulejo_dcr_options *options,
                                    const azulejo_density *density,
@@ -305,34 +208,19 @@ azulejo_status azulejo_dcr_scatter(const azulejo_context *context,
 /// Points whose density is about right, such as those of azulejo_dcr_scatter and
 /// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
 /// points that is far from it is redistributed before the first step, onto points as
-/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps.
+/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps. Only
+/// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
 /// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
-/// place, so that it is finite where the density is 0. The report's rho is the least of all
-/// distances over the mean of the spacings of the two points; its coverage is the largest
-/// circumradius of a Delaunay triangle over the spacing at its centre, without the limit to its
-/// increase; its motion is in units of d_max. Details of the density smaller than an eighth of
-/// d_max are lost.
-///
-/// options: AZULEJO_METHOD_MOMENTUM and AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults; others are
-/// refused.
-///
-/// density: the density of the points; used during the call only.
-///
-/// positions: the points, x y each, with domain_min <= x < domain_max; `count` of them.
-///
-/// out: the points after the last whole step, in the same order, to be freed with
-/// azulejo_points_free. A call that its progress callback cancels succeeds, as that of
-/// azulejo_dcr_relax does.
-///
-/// report: what the call did, or NULL.
-///
-/// O(count) calls of a density function, then O(count) time for each step, with a factor for
-/// densities that vary by orders of magnitude; O(count) memory.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for densities that are negative or not finite, or 0
-/// everywhere; AZULEJO_ERROR_TOO_LARGE.
+/// place. Details of the density smaller than an eighth of d_max are lost.
+/// - positions: the points, x y each.
+/// - out: the points after the last whole step, in the same order.
+/// - report: rho is the least of all distances over the mean of the spacings of the two points, the
+///   relative covering radius the largest circumradius of a Delaunay triangle over the spacing at
+///   its centre, without the limit to its increase; the motion is in units of d_max.
+/// - O(count) calls of a density function, then O(count) time for each step, with a factor for
+///   densities that vary by orders of magnitude; O(count) memory.
 azulejo_status azulejo_dcr_relax_density(const azulejo_context *context,
                                          const azulejo_dcr_options *options,
                                          const azulejo_density *density,
@@ -343,40 +231,31 @@ azulejo_status azulejo_dcr_relax_density(const azulejo_context *context,
 
 /// Options of azulejo_dcr_surface_relax.
 typedef struct azulejo_dcr_surface_options {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// The largest number of steps; default 100. 0 returns the samples as they are, those outside
-    /// their triangle by rounding moved to its edge. The call ends earlier when the set has
-    /// converged.
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    /// The largest number of steps; default 100. The call ends earlier when the set has converged.
+    /// 0 returns the samples as they are, those outside their triangle by rounding moved to its
+    /// edge.
     uint32_t max_iterations;
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects 0.0005.
     double tolerance;
     /// Directions in which samples are separated that coincide or lie on edges of triangles, and
-    /// the points onto which clustered samples are redistributed; any number, default 0.
+    /// the points onto which clustered samples are redistributed; default 0.
     uint64_t seed;
-    /// Called during the call; default NULL: the callback of the context, if it has one.
-    azulejo_progress_fn progress;
-    /// Passed to the progress callback.
-    void *progress_user;
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
+    void *progress_user; ///< Passed to the progress callback.
 } azulejo_dcr_surface_options;
 
 /// The report of azulejo_dcr_surface_relax. Its d_max is that of a plane of the mesh's area.
 typedef struct azulejo_dcr_surface_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// The steps made.
-    uint32_t iterations;
-    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
-    uint32_t stopped;
-    /// Always 0.
-    uint32_t reserved;
-    /// Half of the distance that samples moved over the last 10 steps, root mean square, in units
-    /// of d_max.
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t iterations; ///< The steps made.
+    uint32_t stopped; ///< Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    uint32_t reserved; ///< Always 0.
+    /// Half of the distance that samples moved over the last 10 steps, root mean square, in d_max.
     double motion;
-    /// The smallest straight distance between two of the samples, whether or not they are near on
-    /// the surface, in the units of the mesh. It is never less than before the call; infinite for
-    /// fewer than two samples.
+    /// The smallest straight distance between two samples, near on the surface or not: never less
+    /// than before the call; infinite for fewer than two samples.
     double smallest_distance;
     /// The smallest distance in units of d_max: about 0.77 for a maximal set, more for a relaxed
     /// one, except on meshes with parts that are nearer to each other than samples are. Infinite
@@ -384,15 +263,11 @@ typedef struct azulejo_dcr_surface_report {
     double rho;
 } azulejo_dcr_surface_report;
 
-/// Writes the defaults. `struct_size` is sizeof *options.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes the defaults.
 azulejo_status azulejo_dcr_surface_options_init(azulejo_dcr_surface_options *options,
                                                 size_t struct_size);
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 azulejo_status azulejo_dcr_surface_report_init(azulejo_dcr_surface_report *report,
                                                size_t struct_size);
 
@@ -404,28 +279,17 @@ azulejo_status azulejo_dcr_surface_report_init(azulejo_dcr_surface_report *repor
 ///
 /// No two samples get nearer to each other than the nearest two were before, on whatever sides of
 /// walls and boundaries: straight distances, in double arithmetic on the positions, without
-/// tolerance, after any number of steps. A call that its progress callback cancels succeeds: it
-/// returns the samples after the last whole step, and AZULEJO_STOPPED_CANCELLED in the report.
-///
-/// More than 64 samples that are clustered on a part of the surface are redistributed over all of
-/// it before the first step, onto random points that are no nearer to each other than the nearest
-/// samples were: each connected part receives samples by its area. Without room for that they stay.
-///
-/// triangles, barycentrics: the triangle and the barycentrics u v of each of `count` samples, as
-/// azulejo_points_triangles and azulejo_points_barycentrics return them. Barycentrics outside their
-/// triangle by at most 1e-6 are moved onto it.
-///
-/// out: the samples after the last whole step, in the same order, with normals, triangles and
-/// barycentrics, to be freed with azulejo_points_free.
-///
-/// report: what the call did, or NULL.
-///
-/// O(triangles) time once, and for evenly spread samples O(count) for each step, somewhat more with
-/// many triangles between neighbouring samples. Steps take longer beside many boundaries and for
-/// clustered samples. O(count + triangles) memory. The call is cancelled between steps.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT, also for triangles that do not exist, have no area or
-/// are left out by the mask, and for barycentrics farther outside; AZULEJO_ERROR_TOO_LARGE.
+/// tolerance. More than 64 samples that are clustered on a part of the surface are redistributed
+/// over all of it before the first step, by the area of each connected part, where there is room
+/// for that at the same smallest distance.
+/// - triangles, barycentrics: one triangle and u v for each sample, as azulejo_points_triangles and
+///   azulejo_points_barycentrics return them. Barycentrics outside their triangle by at most 1e-6
+///   are moved onto it; those farther outside, and triangles that have no area or are left out by
+///   the mask, are refused.
+/// - out: after the last whole step, in the same order, with normals, triangles and barycentrics.
+/// - O(triangles) time once, and O(count) for each step, somewhat more with many triangles between
+///   neighbouring samples. Steps take longer beside many boundaries and for clustered samples.
+///   O(count + triangles) memory.
 azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
                                          const azulejo_mesh *mesh,
                                          const azulejo_dcr_surface_options *options,
@@ -435,44 +299,30 @@ azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
                                          azulejo_points **out,
                                          azulejo_dcr_surface_report *report);
 
-/// The report of azulejo_dcr_remesh. The mesh is a manifold if
-/// `non_manifold_vertices` is 0, and closed if `boundary_edges` is 0 too: no edge has more than two
-/// triangles, and two triangles at an edge are wound alike.
+/// The report of azulejo_dcr_remesh. The mesh is a manifold if `non_manifold_vertices` is 0, and
+/// closed if `boundary_edges` is 0 too: no edge has more than two triangles, and two triangles at
+/// an edge are wound alike.
 typedef struct azulejo_dcr_remesh_report {
-    /// The size of the struct in bytes; set by the _init function.
-    uint32_t struct_size;
-    /// Always 0.
-    uint32_t reserved;
-    /// The triangles of the mesh.
-    uint64_t triangles;
-    /// Those of them that not all of their three corners have in their Delaunay stars.
-    uint64_t disputed;
-    /// The triangles of stars that are not in the mesh because they do not go with others.
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t triangles; ///< The triangles of the mesh.
+    uint64_t disputed; ///< Those that not all of their three corners have in their Delaunay stars.
+    /// The triangles of stars that do not go with others and are not in the mesh.
     uint64_t left_out;
-    /// The edges with one triangle, which are the boundary.
-    uint64_t boundary_edges;
-    /// The edges with two triangles.
-    uint64_t inner_edges;
-    /// The edges with more than two triangles: always 0.
-    uint64_t non_manifold_edges;
+    uint64_t boundary_edges; ///< The edges with one triangle, which are the boundary.
+    uint64_t inner_edges; ///< The edges with two triangles.
+    uint64_t non_manifold_edges; ///< The edges with more than two triangles: always 0.
     /// The samples whose triangles are not all connected by edges at the sample.
     uint64_t non_manifold_vertices;
-    /// The samples without a triangle.
-    uint64_t unused_vertices;
-    /// Euler's characteristic, vertices - edges + triangles, without unused vertices: 2 for a
-    /// sphere, 0 for a torus, 1 for a disk.
+    uint64_t unused_vertices; ///< The samples without a triangle.
+    /// Vertices - edges + triangles, all of them used: 2 for a sphere, 0 for a torus, 1 for a disk.
     int64_t euler;
-    /// The smallest angle of all triangles, in degrees.
-    double smallest_angle;
-    /// The largest angle of all triangles, in degrees.
-    double largest_angle;
-    /// The mean over all triangles of their smallest angle, in degrees.
-    double mean_smallest_angle;
+    double smallest_angle; ///< The smallest angle of all triangles, in degrees.
+    double largest_angle; ///< The largest angle of all triangles, in degrees.
+    double mean_smallest_angle; ///< The mean of the triangles' smallest angles, in degrees.
 } azulejo_dcr_remesh_report;
 
-/// Writes zeros and the size. `struct_size` is sizeof *report.
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT.
+/// Writes zeros and the size.
 azulejo_status azulejo_dcr_remesh_report_init(azulejo_dcr_remesh_report *report,
                                               size_t struct_size);
 
@@ -481,25 +331,15 @@ azulejo_status azulejo_dcr_remesh_report_init(azulejo_dcr_remesh_report *report,
 /// relaxed ones give the better angles. The triangles are those of the samples' Delaunay stars that
 /// go together.
 ///
-/// No edge has more than two triangles, and two triangles at an edge are wound alike. Samples that
-/// resolve the features of a closed surface, wound alike everywhere, give a closed manifold of the
-/// same topology. Where they do not, as on thin blades and between faces that are wound against
-/// each other, there are holes. Triangles do not cross open boundaries: the new boundary is that of
-/// the outermost samples.
-///
-/// triangles, barycentrics: as for azulejo_dcr_surface_relax.
-///
-/// out: the new mesh, to be freed with azulejo_mesh_free. Vertex i is sample i, also if it has no
-/// triangle; triangles are wound as those of the old mesh under their corners. See
-/// azulejo_mesh_positions and azulejo_mesh_indices.
-///
-/// report: what was made, or NULL.
-///
-/// O(n log n) time and O(n) memory in samples and triangles. Progress is that of
-/// azulejo_context_watch.
-///
-/// Errors: those of azulejo_dcr_surface_relax; AZULEJO_ERROR_INVALID_ARGUMENT for samples that form
-/// no triangle; AZULEJO_ERROR_CANCELLED.
+/// Samples that resolve the features of a closed surface, wound alike everywhere, give a closed
+/// manifold of the same topology. Where they do not, as on thin blades and between faces that are
+/// wound against each other, there are holes. Triangles do not cross open boundaries: the new
+/// boundary is that of the outermost samples.
+/// - triangles, barycentrics: as for azulejo_dcr_surface_relax.
+/// - out: the new mesh. Vertex i is sample i, also if it has no triangle; triangles are wound as
+///   those of the old mesh under their corners.
+/// - O(n log n) time and O(n) memory in samples and triangles.
+/// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for samples that form no triangle.
 azulejo_status azulejo_dcr_remesh(const azulejo_context *context,
                                   const azulejo_mesh *mesh,
                                   const uint32_t *triangles,

@@ -130,8 +130,8 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 /// count: receives the number of samples of the window. If it is above `capacity`, the call fails
 /// and writes nothing else.
 ///
-/// Work, memory and threads are those of azulejo_kdrt_window. Without levels and classes the order
-/// is arbitrary, but the same in every call.
+/// Time, memory and threads are those of azulejo_kdrt_window, and so is the order of classes and
+/// of ranks; else it is arbitrary, but the same in every call.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a `capacity` below the number of samples, and
 /// for `ranks` or `classes` of a plane that has none.

@@ -74,8 +74,8 @@
 //!     value outside its documented range, an unknown constant, a flag other than 0 and 1, and an
 //!     option that its text excludes from the call;
 //!   - AZULEJO_ERROR_TOO_LARGE for 2^32 samples or more, and for more than memory holds;
-//!   - AZULEJO_ERROR_CANCELLED in calls that report progress, AZULEJO_ERROR_BUSY in those of a psp or
-//!     plane handle, AZULEJO_ERROR_THREADS in those with a context (see "Threads");
+//!   - AZULEJO_ERROR_CANCELLED in calls that report progress, AZULEJO_ERROR_BUSY in those of a psp
+//!     or plane handle, AZULEJO_ERROR_THREADS in those with a context (see "Threads");
 //!   - AZULEJO_ERROR_INTERNAL for a panic inside the library, which is a bug.
 //!
 //! Arguments. Results come last: `out` receives what the call makes, `report`, which may be NULL,

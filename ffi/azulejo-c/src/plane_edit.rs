@@ -93,9 +93,7 @@ pub unsafe extern "C" fn azulejo_plane_points(
 /// Erases the samples in a region. On a torus a sample lies in it if one of its images lies in the
 /// box, and one in the ball, so that a brush may reach over the seam.
 ///
-/// To undo a stroke of a brush, erase what azulejo_plane_refill added, by azulejo_plane_erase_ids,
-/// and give back what this call erased, by azulejo_plane_restore: the set is then as before, bit
-/// for bit. To redo it, erase the same region again and refill with the same seed.
+/// Strokes are undone and redone as azulejo_psp_erase says.
 ///
 /// erased: the erased samples with their ids, by rising ids; NULL if they are not wanted.
 ///
@@ -116,13 +114,7 @@ pub unsafe extern "C" fn azulejo_plane_erase(
     })
 }
 
-/// Erases samples by their ids.
-///
-/// ids: `count` ids, each of a sample of the set, none twice.
-///
-/// erased: as in azulejo_plane_erase.
-///
-/// O(samples in the tiles of 12 to 24 radii that they are in).
+/// Erases samples by their ids, as azulejo_psp_erase_ids. O(samples in the tiles that they are in).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_erase_ids(
     plane: *mut azulejo_plane,
@@ -140,14 +132,8 @@ pub unsafe extern "C" fn azulejo_plane_erase_ids(
     })
 }
 
-/// Puts samples back that were erased from the set, with their ids and all their bytes.
-///
-/// points: from an edit of this handle.
-///
-/// O(points + samples in the tiles of 12 to 24 radii around them).
-///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for samples that are not this set's, that stand
-/// already, or that are too close to a sample or a given sample by now.
+/// Puts samples back that were erased from the set, as azulejo_psp_restore. O(points + samples in
+/// the tiles around them).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_restore(
     plane: *mut azulejo_plane,
@@ -164,16 +150,8 @@ pub unsafe extern "C" fn azulejo_plane_restore(
     })
 }
 
-/// Adds given samples to those of the options. Samples of the set that are closer to one than its
-/// clearance are erased.
-///
-/// clearances: one for each, 0 or more; NULL: the radius of the set.
-///
-/// first_id: the id of the first of them, which the others follow; NULL if it is not wanted.
-///
-/// erased: as in azulejo_plane_erase.
-///
-/// O(samples in the tiles of 12 to 24 radii that the clearances touch), for each.
+/// Adds given samples, x y each, to those of the options, as azulejo_psp_add_given. O(samples in
+/// the tiles that the clearances touch), for each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_add_given(
     plane: *mut azulejo_plane,
@@ -217,10 +195,8 @@ pub unsafe extern "C" fn azulejo_plane_remove_given(
 /// Makes the set maximal again after edits, but looks only where samples were erased or given
 /// samples removed since the last refill. All samples that stand stay as they are.
 ///
-/// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
-/// to a radius outside a region that was erased, since that is how far the erased samples covered
-/// the plane. Every point of the domain is then within the radius of a sample or the clearance of a
-/// given one, up to 6 float spacings at the largest coordinate.
+/// The new samples depend on `seed`, on the edits and on what stands around them, and can lie up to
+/// a radius outside a region that was erased.
 ///
 /// added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 ///

@@ -24,8 +24,7 @@ use crate::status::{Failure, azulejo_status};
 /// give back what this call erased, by azulejo_psp_restore: the set is then as before, bit for bit.
 /// To redo it, erase the same region again and refill with the same seed.
 ///
-/// erased: the erased samples with their ids, by rising ids, to be freed with azulejo_points_free;
-/// NULL if they are not wanted.
+/// erased: the erased samples with their ids, by rising ids; NULL if they are not wanted.
 ///
 /// O(samples in the cubes of 24 radii that the region touches); the first edit O(samples).
 #[unsafe(no_mangle)]
@@ -46,7 +45,7 @@ pub unsafe extern "C" fn azulejo_psp_erase(
 
 /// Erases samples by their ids.
 ///
-/// ids: `count` ids, each of a sample of the set, none twice; NULL if `count` is 0.
+/// ids: `count` ids, each of a sample of the set, none twice.
 ///
 /// erased: as in azulejo_psp_erase.
 ///
@@ -70,7 +69,7 @@ pub unsafe extern "C" fn azulejo_psp_erase_ids(
 
 /// Puts samples back that were erased from the set, with their ids and all their bytes.
 ///
-/// points: from an edit of this handle; not changed, and still to be freed.
+/// points: from an edit of this handle.
 ///
 /// O(points + samples in the cubes of 24 radii around them).
 ///
@@ -93,8 +92,7 @@ pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *con
 /// Adds given samples to those of the options. Samples of the set that are closer to one than its
 /// clearance are erased.
 ///
-/// positions: x y z each. clearances: one for each, finite and 0 or more; NULL: the radius of the
-/// set.
+/// clearances: one for each, 0 or more; NULL: the radius of the set.
 ///
 /// first_id: the id of the first of them, which the others follow; NULL if it is not wanted. Those
 /// of the options have the ids from 0 on. Ids of given samples and of samples are independent.
@@ -151,8 +149,7 @@ pub unsafe extern "C" fn azulejo_psp_remove_given(
 /// to a radius outside a region that was erased, since that is how far the erased samples covered
 /// the surface.
 ///
-/// added: the new samples with their ids, by rising ids, to be freed with azulejo_points_free; NULL
-/// if they are not wanted.
+/// added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 ///
 /// O(surface in and around the edited regions + given samples); the first call on a handle also
 /// O(triangles).
