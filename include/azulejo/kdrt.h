@@ -195,14 +195,13 @@ azulejo_status azulejo_kdrt_window(const azulejo_kdrt *plane,
 /// extent of the window. They are exact, and so at least the radius apart, if window_min is a
 /// multiple of azulejo_kdrt_unit and the window less than 2^24 units wide and high; otherwise two
 /// samples may be closer than the radius by the spacing of floats at the extent of the window.
-/// Windows that share an edge, given by the same number, share no sample and lose none, and window
-/// corners far from 0 cost no precision of the positions.
+/// Windows that share an edge, given by the same number, share no sample and lose none.
 /// - window_min, window_max: the corners, x y each. Periodic: at most 2^32 periods from the domain,
 ///   at most one period apart. Bounded: in the domain.
 /// - positions: receives x y of each sample. May be NULL if `capacity` is 0.
 /// - ranks, classes: receive those of each sample; NULL if they are not wanted, or not there.
-/// - capacity: the number of samples that each array has room for. azulejo_kdrt_window_capacity has
-///   a number that suffices for all windows of a size.
+/// - capacity: the number of samples that each array has room for; see
+///   azulejo_kdrt_window_capacity.
 /// - count: receives the number of samples of the window. If it is above `capacity`, the call fails
 ///   and writes nothing else.
 ///
@@ -219,20 +218,15 @@ azulejo_status azulejo_kdrt_window_into(const azulejo_kdrt *plane,
                                         size_t capacity,
                                         size_t *count);
 
-/// The most samples that a window of a plane can have, so that one array suffices for all windows
-/// of a size.
-///
-/// Of samples at least r apart a rectangle has at most 2 / sqrt(3) * w * h / r^2 + (w + h) / r + 1
-/// (Oler 1961), 1.66 times as many as large windows have on average; of several classes the sum of
-/// these.
-/// - extent: the width and height of the window, above 0.
+/// The most samples that any window of an extent w h can have: 2 / sqrt(3) * w * h / r^2 +
+/// (w + h) / r + 1 (Oler 1961), 1.66 times as many as large windows have on average; of several
+/// classes the sum of these.
 azulejo_status azulejo_kdrt_window_capacity(const azulejo_kdrt *plane,
                                             const double *extent,
                                             size_t *out);
 
-/// The spacing of the lattice on which all samples of a plane lie: a power of two, the spacing of
-/// floats at the largest coordinate of the domain; of a wide plane 1/512 to 1/256 of the radius. 0
-/// for NULL.
+/// The spacing of the lattice on which all samples of a plane lie, a power of two: a float spacing,
+/// of a wide plane 1/512 to 1/256 of the radius.
 double azulejo_kdrt_unit(const azulejo_kdrt *plane);
 
 /// Frees a plane. NULL is allowed.
@@ -362,9 +356,8 @@ typedef struct azulejo_plane azulejo_plane;
 /// - options: `count`, `order` and `measure_covering_radius` must have their defaults, and with
 ///   positions `leaf_size` too. Given samples have the ids 0, 1, 2 and so on, independent of those
 ///   of the samples. The handle keeps the progress callback for all its calls.
-/// - positions: x y each, any floats of the domain, no two closer than the radius and none closer
-///   to a given sample than its clearance: a set of an earlier call, or of the host. The first
-///   azulejo_plane_refill looks for gaps everywhere, and takes as long as that.
+/// - positions: any floats of the domain, no two closer than the radius and none closer to a given
+///   sample than its clearance. The first azulejo_plane_refill looks for gaps everywhere.
 /// - count: the number of positions. 0: it begins with the set of azulejo_kdrt_sample.
 /// - O(samples) time, and about 40 bytes of memory per sample.
 azulejo_status azulejo_plane_create(const azulejo_context *context,

@@ -114,8 +114,7 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 /// extent of the window. They are exact, and so at least the radius apart, if window_min is a
 /// multiple of azulejo_kdrt_unit and the window less than 2^24 units wide and high; otherwise two
 /// samples may be closer than the radius by the spacing of floats at the extent of the window.
-/// Windows that share an edge, given by the same number, share no sample and lose none, and window
-/// corners far from 0 cost no precision of the positions.
+/// Windows that share an edge, given by the same number, share no sample and lose none.
 ///
 /// window_min, window_max: the corners, x y each. Periodic: at most 2^32 periods from the domain,
 /// at most one period apart. Bounded: in the domain.
@@ -124,8 +123,7 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 ///
 /// ranks, classes: receive those of each sample; NULL if they are not wanted, or not there.
 ///
-/// capacity: the number of samples that each array has room for. azulejo_kdrt_window_capacity has a
-/// number that suffices for all windows of a size.
+/// capacity: the number of samples that each array has room for; see azulejo_kdrt_window_capacity.
 ///
 /// count: receives the number of samples of the window. If it is above `capacity`, the call fails
 /// and writes nothing else.
@@ -193,14 +191,9 @@ fn wanted<T>(argument: &str, array: *const T, are_there: bool) -> Result<(), Fai
     }
 }
 
-/// The most samples that a window of a plane can have, so that one array suffices for all windows
-/// of a size.
-///
-/// Of samples at least r apart a rectangle has at most 2 / sqrt(3) * w * h / r^2 + (w + h) / r + 1
-/// (Oler 1961), 1.66 times as many as large windows have on average; of several classes the sum of
-/// these.
-///
-/// extent: the width and height of the window, above 0.
+/// The most samples that any window of an extent w h can have: 2 / sqrt(3) * w * h / r^2 +
+/// (w + h) / r + 1 (Oler 1961), 1.66 times as many as large windows have on average; of several
+/// classes the sum of these.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window_capacity(
     plane: *const azulejo_kdrt,
@@ -217,9 +210,8 @@ pub unsafe extern "C" fn azulejo_kdrt_window_capacity(
     })
 }
 
-/// The spacing of the lattice on which all samples of a plane lie: a power of two, the spacing of
-/// floats at the largest coordinate of the domain; of a wide plane 1/512 to 1/256 of the radius. 0
-/// for NULL.
+/// The spacing of the lattice on which all samples of a plane lie, a power of two: a float spacing,
+/// of a wide plane 1/512 to 1/256 of the radius.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_unit(plane: *const azulejo_kdrt) -> f64 {
     // SAFETY: handed on from the caller.

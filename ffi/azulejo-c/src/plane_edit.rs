@@ -42,9 +42,8 @@ handle!(azulejo_plane);
 /// positions `leaf_size` too. Given samples have the ids 0, 1, 2 and so on, independent of those of
 /// the samples. The handle keeps the progress callback for all its calls.
 ///
-/// positions: x y each, any floats of the domain, no two closer than the radius and none closer to
-/// a given sample than its clearance: a set of an earlier call, or of the host. The first
-/// azulejo_plane_refill looks for gaps everywhere, and takes as long as that.
+/// positions: any floats of the domain, no two closer than the radius and none closer to a given
+/// sample than its clearance. The first azulejo_plane_refill looks for gaps everywhere.
 ///
 /// count: the number of positions. 0: it begins with the set of azulejo_kdrt_sample.
 ///
