@@ -161,9 +161,8 @@ azulejo_status azulejo_kdrt_create(const azulejo_context *context,
                                    const azulejo_kdrt_options *options,
                                    azulejo_kdrt **out);
 
-/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. Floats
-/// cannot carry so many samples, so that they are only given by azulejo_kdrt_window_into; other
-/// calls refuse the plane.
+/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. As floats
+/// cannot carry so many samples, only azulejo_kdrt_window_into gives them.
 /// - options: with a radius, in any order. The samples are others than those of azulejo_kdrt_create
 ///   with the same options. They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to
 ///   1/256 of the radius, and every place is within the radius + 3 of these of a sample. The domain
@@ -346,8 +345,7 @@ azulejo_status azulejo_kdrt_merge(const azulejo_context *context,
                                   azulejo_points **out,
                                   azulejo_kdrt_merge_report *report);
 
-/// A set of the plane that is edited. It keeps its context, which may be freed before it. Several
-/// threads may copy its points at once.
+/// A set of the plane that is edited. It keeps its context, which may be freed before it.
 typedef struct azulejo_plane azulejo_plane;
 
 /// Makes a set of the plane that is edited. Its samples have ids (azulejo_points_ids), at first 0,

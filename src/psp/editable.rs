@@ -186,8 +186,8 @@ impl Ground<3> for OnMesh {
 /// [`EditableSet`].
 ///
 /// # Errors
-/// Those of [`Psp::new`](super::Psp::new), and [`Error::InvalidArgument`] for a `region` with bounds that are NaN or in
-/// the wrong order. Where the call is cancelled nothing is returned.
+/// Those of [`Psp::new`](super::Psp::new), and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a `region`
+/// with bounds that are NaN or in the wrong order. Where the call is cancelled nothing is returned.
 pub fn sample_region(
     context: &Context,
     mesh: &Arc<Mesh>,

@@ -48,9 +48,8 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
     })
 }
 
-/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. Floats
-/// cannot carry so many samples, so that they are only given by azulejo_kdrt_window_into; other
-/// calls refuse the plane.
+/// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. As floats
+/// cannot carry so many samples, only azulejo_kdrt_window_into gives them.
 ///
 /// options: with a radius, in any order. The samples are others than those of azulejo_kdrt_create
 /// with the same options. They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to 1/256

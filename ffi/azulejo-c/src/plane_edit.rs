@@ -17,8 +17,7 @@ use crate::progress::Watch;
 use crate::region::azulejo_region;
 use crate::status::{Failure, azulejo_status};
 
-/// A set of the plane that is edited. It keeps its context, which may be freed before it. Several
-/// threads may copy its points at once.
+/// A set of the plane that is edited. It keeps its context, which may be freed before it.
 pub struct azulejo_plane {
     context: azulejo_context,
     watch: Watch,
