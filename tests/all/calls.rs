@@ -209,6 +209,27 @@ const PLANE: &[Call] = &[
         ],
     },
     Call {
+        name: "kdrt::EditableSet::sample",
+        reports: 3,
+        run: |c, p| said(kdrt::EditableSet::sample(c, &kdrt::Options::new(0.003), p).map(|set| set.samples())),
+        refused: &[
+            ("order: ", |c, p| kdrt::EditableSet::sample(c, &progressive(0.02), p).map(|_| String::new())),
+            ("classes: ", |c, p| {
+                kdrt::EditableSet::sample(c, &kdrt::Options::classes(&CLASSES), p).map(|_| String::new())
+            }),
+        ],
+    },
+    Call {
+        name: "editable::EditableSet::refill",
+        reports: 3,
+        run: |c, p| {
+            let mut set = kdrt::EditableSet::sample(c, &kdrt::Options::new(0.003), None)?;
+            set.erase(&Region::ball([0.9, 0.1, 0.0], 0.2))?;
+            said(set.refill(c, 7, p))
+        },
+        refused: &[],
+    },
+    Call {
         name: "kdrt::sample_count",
         reports: 5,
         run: |c, p| said(kdrt::sample_count(c, &CountOptions::new(60_000), p)),
@@ -331,7 +352,7 @@ const SURFACE: &[Call] = &[
         })],
     },
     Call {
-        name: "psp::EditableSet::refill",
+        name: "editable::EditableSet::refill",
         reports: 3,
         run: |c, p| {
             let mut psp = Psp::new(&MESH, &ProjectionOptions::new(0.05))?;
@@ -724,7 +745,8 @@ fn long_calls(folder: &str, source: &str) -> Vec<String> {
         if line == "}" {
             of_type.clear();
         }
-        if let Some(rest) = line.strip_prefix("impl ") {
+        if let Some(rest) = line.strip_prefix("impl") {
+            let rest = if rest.starts_with('<') { rest.split_once("> ").unwrap().1 } else { &rest[1..] };
             of_type = rest.split(|c: char| !c.is_alphanumeric()).next().unwrap().to_owned() + "::";
         }
         if let Some((_, rest)) = line.split_once("pub fn ") {

@@ -457,9 +457,9 @@ static azulejo_status thinned_plane(const azulejo_context *context, size_t count
     return thinned_to(context, count, 2, 0, radius_of(count / 4, 1), AZULEJO_ORDER_ANY);
 }
 
-/* The most that a call asks for, over its peak, beside some MB for tables. More where arrays that double make peaks uneven, and where radii vary: how
-   finely that cuts triangles is only known afterwards. A mesh is estimated as if its triangles were apart, each with samples
-   of its own where they are longer than the radius. */
+/* The most that a call asks for, over its peak, beside some MB for tables. More where arrays that double make peaks uneven,
+   and where radii vary: how finely that cuts triangles is only known afterwards. A mesh is estimated as if its triangles
+   were apart, each with samples of its own where they are longer than the radius. */
 #define MOST_ASKED 1.3
 #define SLACK ((size_t)4 << 20)
 #define MOST_ASKED_UNEVENLY 1.7
@@ -494,7 +494,7 @@ static const struct {
     {"mesh, given samples", mesh_around, 600000, MOST_ASKED},
     {"mesh, many given samples", mesh_around_many, 600000, MOST_ASKED},
     {"mesh, 2 classes", mesh_classes, 600000, MOST_ASKED},
-    {"mesh, 2 classes, progressive", mesh_classes_progressive, 200000, MOST_ASKED},
+    {"mesh, 2 classes, progressive", mesh_classes_progressive, 200000, MOST_ASKED_UNEVENLY},
     {"mesh, handle", of_handle, 600000, MOST_ASKED},
     {"mesh, edited", edited, 300000, MOST_ASKED},
     {"mesh, region", in_region, 400000, MOST_ASKED},
@@ -607,26 +607,27 @@ static int child(call make, size_t count, uint32_t threads, size_t bytes, outcom
 
 static double megabytes(size_t bytes) { return (double)bytes / (1 << 20); }
 
+/* A call under a limit, with as many bytes as this share of its peak on one thread. */
+static void limited(const char *name, call make, size_t count, uint32_t threads, double share, size_t peak) {
+    const size_t bytes = (size_t)(share * (double)peak);
+    outcome one;
+    const int is_over = child(make, count, threads, bytes, &one);
+    if (!CHECK(is_over && (one.status == AZULEJO_OK || one.status == AZULEJO_ERROR_TOO_LARGE)))
+        printf("    %s, %u threads: aborts with %.1f of %.1f MB\n", name, threads, megabytes(bytes), megabytes(peak));
+}
+
+/* Two threads share one arena (child), and take what one takes or more. */
 static void grid(const char *name, call make, size_t count, double most) {
-    static const double shares[] = {0.1, 0.4, 0.7, 0.9, 1.05};
-    uint32_t threads;
-    for (threads = 1; threads <= 2; threads++) {
-        outcome free_one, one;
-        size_t i, enough;
-        if (!CHECK(child(make, count, threads, 0, &free_one) && free_one.status == AZULEJO_OK)) continue;
-        for (i = 0; i < COUNT_OF(shares); i++) {
-            const size_t bytes = (size_t)(shares[i] * (double)free_one.peak);
-            const int is_over = child(make, count, threads, bytes, &one);
-            const int is_sound = is_over && (one.status == AZULEJO_OK || one.status == AZULEJO_ERROR_TOO_LARGE);
-            if (!CHECK(is_sound))
-                printf("    %s, %u threads: aborts with %.1f of %.1f MB\n", name, threads, megabytes(bytes),
-                       megabytes(free_one.peak));
-        }
-        enough = (size_t)(most * (double)free_one.peak) + SLACK;
-        if (!CHECK(child(make, count, threads, enough, &one) && one.status == AZULEJO_OK))
-            printf("    %s, %u threads: refused with %.1f x %.1f MB: %s\n", name, threads, most, megabytes(free_one.peak),
-                   one.message);
-    }
+    outcome free_one, one;
+    size_t enough;
+    if (!CHECK(child(make, count, 1, 0, &free_one) && free_one.status == AZULEJO_OK)) return;
+    limited(name, make, count, 1, 0.4, free_one.peak);
+    limited(name, make, count, 1, 0.9, free_one.peak);
+    limited(name, make, count, 2, 0.1, free_one.peak);
+    limited(name, make, count, 2, 0.7, free_one.peak);
+    enough = (size_t)(most * (double)free_one.peak) + SLACK;
+    if (!CHECK(child(make, count, 1, enough, &one) && one.status == AZULEJO_OK))
+        printf("    %s: refused with %.1f x %.1f MB: %s\n", name, most, megabytes(free_one.peak), one.message);
 }
 
 /* A row of the table: the peak, what the call said that it needs when it was given half of that, and their quotient. */
