@@ -192,6 +192,16 @@ const PLANE: &[Call] = &[
         refused: &[],
     },
     Call {
+        name: "kdrt::Plane::wide",
+        reports: 3,
+        run: |c, p| said(Plane::wide(c, &kdrt::Options::new(0.002), p)?.relative_window([-9.1; 2], [-9.0; 2])),
+        refused: &[
+            ("order: ", |c, p| Plane::wide(c, &progressive(0.002), p).map(|_| String::new())),
+            ("classes: ", |c, p| Plane::wide(c, &kdrt::Options::classes(&CLASSES), p).map(|_| String::new())),
+            ("domain_max: ", |c, p| Plane::wide(c, &kdrt::Options::new(0.2), p).map(|_| String::new())),
+        ],
+    },
+    Call {
         name: "kdrt::Plane::whole",
         reports: 5,
         run: |c, p| said(Plane::new(c, &kdrt::Options::new(0.002).domain(TORUS), None)?.whole(c, p)),
