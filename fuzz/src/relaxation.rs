@@ -79,7 +79,9 @@ pub fn unit(options: &azulejo_dcr_options, count: usize) -> f64 {
 /// distance by all pairs, the covering radius by cutting the domain into pieces.
 pub fn check_report(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dcr_report) {
     if let Some(fault) = fault(options, points, report) {
-        panic!("{fault}: rho {}, coverage {}, {points:?}", report.rho, report.relative_covering_radius);
+        let (low, high, boundary) = (options.domain_min, options.domain_max, options.boundary);
+        let (rho, coverage) = (report.rho, report.relative_covering_radius);
+        panic!("{fault}: rho {rho}, coverage {coverage}, {low:?} to {high:?}, boundary {boundary}, {points:?}");
     }
 }
 

@@ -39,8 +39,8 @@ pub struct RadialDistribution {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`positions`), for `bins`
-/// outside of 1 to [`MAX_BINS`], and for a `reach` that is not above 0, or above half the width or height of the
-/// domain; [`Error::Cancelled`].
+/// outside of 1 to [`MAX_BINS`], and for a `reach` that is not above 0, so small that a bin has no area in `f64`, or above
+/// half the width or height of the domain; [`Error::Cancelled`].
 pub fn radial_distribution(
     context: &Context,
     domain: &Domain,
@@ -61,13 +61,19 @@ pub fn radial_distribution(
         let reason = format!("{reach} is above {limit}, half the width or height of the domain in units of d_max");
         return Err(Error::invalid("reach", reason));
     }
+    let per_length = bins as f64 / (reach * unit);
+    let ring = |bin: usize| PI * (2 * bin + 1) as f64 / (per_length * per_length);
+    let pairs = points.len() as f64 * (points.len() - 1) as f64;
+    let expected: Vec<f64> = (0..bins).map(|bin| pairs * ring(bin) / domain.area()).collect();
+    if !expected[0].is_normal() {
+        return Err(Error::invalid("reach", format!("{reach} is so small that the first bin has no area")));
+    }
     let weight = |[x, y]: [f64; 2]| match domain.boundary {
         Boundary::Periodic => 1.0,
         Boundary::Bounded => 1.0 / ((1.0 - x.abs() / width) * (1.0 - y.abs() / height)),
     };
     let cell = CELL * (domain.area() / points.len() as f64).sqrt();
     let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), cell);
-    let per_length = bins as f64 / (reach * unit);
     // Many bins take time of their own; many points, perhaps, since most may be in one cell.
     let chunks = chunks_of(points.len(), (bins / 8).clamp(256, 2048));
     // Along the cells of the grid, so that points which follow each other meet the same others.
@@ -89,9 +95,6 @@ pub fn radial_distribution(
         Ok(())
     };
     context.run(progress, |job| job.stream(chunks.len(), count, add))?;
-    let ring = |bin: usize| PI * (2 * bin + 1) as f64 / (per_length * per_length);
-    let pairs = points.len() as f64 * (points.len() - 1) as f64;
-    let expected = (0..bins).map(|bin| pairs * ring(bin) / domain.area()).collect();
     Ok(RadialDistribution { reach, found, expected })
 }
 

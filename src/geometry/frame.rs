@@ -117,11 +117,13 @@ impl Frame {
 
     /// The points, in their order, and after them every copy that lies within `margin` of the domain.
     ///
-    /// Copies are translated by a period, or mirrored by the boundary (thesis, Fig. 4.12 (b)). The margin is cut to the
-    /// size of the domain, so there is at most one ring of copies.
+    /// Copies are translated by a period, or mirrored by the boundary (thesis, Fig. 4.12 (b)). There is at most one ring
+    /// of copies, which along an axis no longer than the margin is whole: also of points that were nudged out of the
+    /// domain.
     pub fn sites(&self, positions: impl Iterator<Item = DVec2> + Clone, margin: f64) -> Vec<Site> {
         let copy = |axis: usize, x: f64, side: i8| {
-            let (length, margin) = (self.size[axis], margin.min(self.size[axis]));
+            let length = self.size[axis];
+            let margin = if margin < length { margin } else { f64::INFINITY };
             let x = match self.domain.boundary {
                 Boundary::Periodic => x + f64::from(side) * length,
                 Boundary::Bounded if side == 0 => x,
@@ -248,6 +250,8 @@ mod tests {
             // The only copy within 0.6 is the one beyond a vertical boundary.
             assert_eq!(frame.sites([point].into_iter(), 0.6).len(), 2);
             assert_eq!(frame.sites([point].into_iter(), 0.4).len(), 1);
+            let nudged = frame.size() + 1e-7;
+            assert_eq!(frame.sites([nudged].into_iter(), f64::INFINITY).len(), 9);
         }
     }
 

@@ -171,7 +171,7 @@ fn bad_arguments_are_refused_by_name() {
     assert_eq!(refused(&[], 1.0, 5), "positions");
     assert_eq!(refused(&points[..1], 1.0, 5), "positions");
     assert_eq!(refused(&[[0.5, 1.5]; 2], 1.0, 5), "positions");
-    for reach in [0.0, -1.0, f64::NAN, f64::INFINITY, 5.0] {
+    for reach in [0.0, -1.0, 1e-200, f64::NAN, f64::INFINITY, 5.0] {
         assert_eq!(refused(&points, reach, 5), "reach");
     }
     for bins in [0, 1 << 17, usize::MAX] {

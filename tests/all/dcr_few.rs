@@ -80,3 +80,50 @@ fn few_points_spread_from_any_start_on_any_domain() {
         }
     }
 }
+
+/// Points on the sides and in the corners of long domains, whose holes are wider than a period, have the figures that they
+/// are reported to have. The first set was found by fuzzing: a point on a side was nudged out of the domain, and one of its
+/// copies was missing.
+#[test]
+fn figures_of_points_on_the_sides_of_long_domains_are_true() {
+    let found: [[f32; 2]; 11] = [
+        [-3.625, -5.5805874],
+        [0.47817972, -5.656144],
+        [0.77070403, -6.3125],
+        [-1.2590599, -5.066316],
+        [0.5998929, -6.3125],
+        [-3.2025106, -6.3125],
+        [2.1184201, -5.5538197],
+        [-3.625, -6.3125],
+        [-3.625, -5.2206054],
+        [2.6643555, -6.3125],
+        [1.191378, -5.066316],
+    ];
+    let (min, max) = ([-3.625, -6.3125], [7.190725926199255, -4.793342464098887]);
+    measure(Domain { min, max, boundary: Boundary::Bounded }, &found);
+    for boundary in BOUNDARIES {
+        for (seed, count) in (400..).zip([2, 3, 5, 8, 11, 20]) {
+            for max in [[7.0, 1.0], [0.3, 4.0]] {
+                let on_side = |fraction: f32, max: f64| match fraction {
+                    ..0.3 => 0.0,
+                    0.9.. => (max as f32).next_down(),
+                    _ => fraction * 0.4 * max as f32,
+                };
+                let points: Vec<[f32; 2]> = random_points(count, seed)
+                    .into_iter()
+                    .map(|place| std::array::from_fn(|axis| on_side(place[axis], max[axis])))
+                    .collect();
+                measure(Domain { min: [0.0; 2], max, boundary }, &points);
+            }
+        }
+    }
+}
+
+/// Holds the report of points that no step has moved against their pairs and their holes.
+fn measure(domain: Domain, points: &[[f32; 2]]) {
+    let mut options = Options::new(domain, Neighbourhood::Delaunay);
+    options.max_iterations = 0;
+    let (same, report) = relax(&Context::new(1).unwrap(), &options, points, None).unwrap();
+    assert_eq!(same, points);
+    assert_eq!(relaxed::fault(&domain, points, &report), None, "{domain:?}: {points:?}");
+}
