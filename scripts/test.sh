@@ -87,7 +87,7 @@ debian_roots() {
 }
 
 sanitized_address() {
-    scripts/fuzz.sh --seconds "$(is_long && echo 60 || echo 10)"
+    scripts/fuzz.sh $(is_long || echo --brief)
     tests/c/sanitized.sh address
 }
 
@@ -106,7 +106,7 @@ on_debian13() {
         cargo test --offline --locked $1
         [ -z "$2" ] || cargo test --offline --locked --package azulejo --test all -- $2
         tests/c/package.sh --keep /var/cache/package
-        tests/c/run.sh /var/cache/package/prefix
+        AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix
         tests/c/debs.sh /var/cache/package' bash "${what[*]}" "${modules[*]}"
 }
 

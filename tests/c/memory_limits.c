@@ -672,7 +672,7 @@ int main(int argc, char **argv) {
                 measure(calls[i].name, calls[i].make, count == 0 ? calls[i].count : count, threads);
         }
     }
-    for (i = 0; is_limited && argc == 1 && i < COUNT_OF(calls); i++)
+    for (i = 0; is_limited && argc == 1 && i < COUNT_OF(calls); i += getenv("AZULEJO_ROUNDS") ? 8 : 1)
         grid(calls[i].name, calls[i].make, calls[i].count, calls[i].most);
     azulejo_mesh_free(cube);
     azulejo_mesh_free(hilly);

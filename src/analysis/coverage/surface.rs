@@ -94,6 +94,13 @@ pub fn surface_coverage(
 
 /// A place of each uncovered part of the fragments that is small enough to be of one gap.
 fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) -> Result<Vec<[f32; 3]>> {
+    // What cannot be kept is refused before any of it is gathered.
+    let tasks = chunks_of(fragments.len(), TASK);
+    let least = job.part(0.0, 0.1).map(tasks.len(), |task| {
+        let uncovered = fragments[tasks.range(task)].iter().filter(|fragment| fragment.is_uncovered(tree, radius));
+        uncovered.map(|fragment| fragment.least_parts(radius)).sum::<f64>()
+    })?;
+    check_count(least.into_iter().sum::<f64>() as usize)?;
     let tasks = chunks_of(fragments.len(), GATHERED);
     let mut uncovered = Vec::new();
     let task = |task: usize| {
@@ -105,7 +112,7 @@ fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) 
         uncovered.extend(found?);
         check_count(uncovered.len())
     };
-    job.stream(tasks.len(), task, keep)?;
+    job.part(0.1, 1.0).stream(tasks.len(), task, keep)?;
     Ok(uncovered)
 }
 
@@ -251,16 +258,25 @@ impl TrianglePart {
 
     /// Appends places of all of it, none of which is covered.
     fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
-        let smallest = 0.25 * LINK * radius;
-        // Halves are no larger than a right triangle of that reach, which has 0.9 of its square. A needle is as long as
-        // a chain of them.
-        let least = (self.area() / (smallest * smallest)).max(self.reach / (2.0 * smallest));
-        check_count(uncovered.len().saturating_add(least as usize))?;
-        if self.reach <= smallest {
+        check_count(uncovered.len().saturating_add(self.least_parts(radius) as usize))?;
+        if self.reach <= 0.25 * LINK * radius {
             uncovered.push(self.centre.as_vec3().to_array());
             return Ok(());
         }
         self.halves().iter().try_for_each(|half| half.gather_all(radius, uncovered))
+    }
+
+    /// At least so many places are gathered if all of it is uncovered.
+    fn least_parts(&self, radius: f64) -> f64 {
+        let smallest = 0.25 * LINK * radius;
+        // Halves are no larger than a right triangle of that reach, which has 0.9 of its square. A needle is as long as
+        // a chain of them.
+        (self.area() / (smallest * smallest)).max(self.reach / (2.0 * smallest))
+    }
+
+    /// True if no place of it is covered.
+    fn is_uncovered(&self, tree: &PointTree, radius: f64) -> bool {
+        tree.nearest_beyond(self.centre, radius + self.reach).is_some_and(|distance| distance - self.reach > radius)
     }
 
     fn area(&self) -> f64 {
