@@ -150,8 +150,12 @@ pub struct Job<'a> {
 impl<'a> Job<'a> {
     /// The part of this job that lies between two shares of it. Parts follow each other; they do not overlap.
     pub(crate) fn part(&self, from: f64, to: f64) -> Job<'a> {
-        let at = |share: f64| self.from + (self.to - self.from) * share;
-        Job { from: at(from), to: at(to), ..*self }
+        Job { from: self.done(from), to: self.done(to), ..*self }
+    }
+
+    /// How much of the whole job is done when `share` of this part is: no more than its end, whatever the rounding.
+    fn done(&self, share: f64) -> f64 {
+        (self.from + (self.to - self.from) * share).min(self.to)
     }
 
     /// The threads that the job runs on.
@@ -162,7 +166,7 @@ impl<'a> Job<'a> {
     /// Reports to the caller that `share` of this part is done.
     pub(crate) fn report(&self, share: f64) -> Result<()> {
         let Some(progress) = self.progress else { return Ok(()) };
-        match progress(self.from + (self.to - self.from) * share) {
+        match progress(self.done(share)) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(Error::Cancelled),
         }
@@ -419,6 +423,25 @@ mod tests {
     }
 
     /// The first parts take the longest, so that others come before their turn.
+    #[test]
+    fn no_part_ends_after_the_next_begins() {
+        let latest = Cell::new(0.0);
+        let progress = |done: f64| {
+            assert!(done >= latest.replace(done));
+            ControlFlow::Continue(())
+        };
+        let all = |job: &Job| {
+            // 0.03 + (0.29 - 0.03) is above 0.29.
+            for [from, to] in [[0.0, 0.03], [0.03, 0.29], [0.29, 1.0]] {
+                let part = job.part(from, to);
+                part.report(0.0)?;
+                part.report(1.0)?;
+            }
+            Ok(())
+        };
+        Context::new(1).unwrap().run(Some(&progress), all).unwrap();
+    }
+
     #[test]
     fn parts_are_put_in_order_whatever_is_expected_of_them() {
         let part = |i: usize| {

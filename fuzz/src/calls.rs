@@ -11,6 +11,7 @@ use azulejo_c::context::*;
 use azulejo_c::differences::*;
 use azulejo_c::kept::*;
 use azulejo_c::mesh::*;
+use azulejo_c::plane_edit::*;
 use azulejo_c::points::*;
 use azulejo_c::psp::*;
 use azulejo_c::spectrum::*;
@@ -37,6 +38,7 @@ freed!(
     azulejo_context: azulejo_context_free,
     azulejo_kdrt: azulejo_kdrt_free,
     azulejo_mesh: azulejo_mesh_free,
+    azulejo_plane: azulejo_plane_free,
     azulejo_psp: azulejo_psp_free,
     azulejo_points: azulejo_points_free,
     azulejo_selection: azulejo_selection_free,

@@ -16,8 +16,8 @@ fn domain(options: &azulejo_kdrt_options) -> Domain {
 /// Samples that stand already, with clearances if they have any.
 #[derive(Default)]
 pub struct Given {
-    positions: Vec<[f32; 2]>,
-    clearances: Option<Vec<f64>>,
+    pub positions: Vec<[f32; 2]>,
+    pub clearances: Option<Vec<f64>>,
 }
 
 impl Given {
@@ -60,7 +60,8 @@ impl Given {
         options.boundary == 1 || self.positions.iter().all(is_near)
     }
 
-    fn clearance(&self, options: &azulejo_kdrt_options, index: usize) -> f64 {
+    /// The radius, unless it has one of its own.
+    pub fn clearance(&self, options: &azulejo_kdrt_options, index: usize) -> f64 {
         self.clearances.as_ref().map_or(options.radius, |clearances| clearances[index])
     }
 
