@@ -27,7 +27,7 @@ const REACH: f64 = 1.1;
 /// The progress of a refill that its preparation takes.
 const PREPARATION: f64 = 0.2;
 
-/// What a set stands on, the plane or a mesh, and the way in which gaps of it are filled.
+/// The plane or the mesh that a set stands on, and the way in which its gaps are filled.
 pub trait Ground<const AXES: usize> {
     type Sample: Copy;
     /// A part of the ground, for a search of the samples in it.
@@ -423,7 +423,7 @@ impl<'a, const AXES: usize, G: Ground<AXES>> Neighbours<'a, AXES, G> {
 
 // # Samples by bins and ids
 //
-// What stands, and the bin of every sample that has ever stood.
+// The standing samples, and the bin of every sample that has ever stood.
 
 /// A sample and its id.
 #[derive(Clone, Copy)]

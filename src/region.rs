@@ -96,7 +96,7 @@ mod tests {
         assert!(Region::EVERYWHERE.contains([f32::MAX; 3]) && Region::ball([1.0; 3], 0.0).contains([1.0; 3]));
     }
 
-    /// What touches holds for a box of which any point is in the region, and what is near is in the grown region.
+    /// A box of which a point is in the region touches it, and a place near it is in the grown region.
     #[test]
     fn boxes_touch_and_regions_grow_at_least_as_their_points_do() {
         let mut rng = Rng::at(3, Draw::Probe, &[]);

@@ -62,8 +62,8 @@ impl PointTree {
         (nearest.squared > nearest.enough).then(|| nearest.squared.sqrt())
     }
 
-    fn search(&self, place: DVec3, enough: f64) -> Found {
-        let mut nearest = Found { squared: f64::INFINITY, point: None, enough };
+    fn search(&self, place: DVec3, enough: f64) -> NearestPoint {
+        let mut nearest = NearestPoint { squared: f64::INFINITY, point: None, enough };
         let away = place - place.clamp(self.bounds[0], self.bounds[1]);
         search(&self.points, &self.axes, place, away, &mut nearest);
         nearest
@@ -71,14 +71,14 @@ impl PointTree {
 }
 
 /// The nearest point so far.
-struct Found {
+struct NearestPoint {
     squared: f64,
     point: Option<DVec3>,
     /// The squared distance of the nearest point at which the search ends, or a negative number.
     enough: f64,
 }
 
-impl Found {
+impl NearestPoint {
     fn look_at(&mut self, point: DVec3, place: DVec3) {
         let squared = point.distance_squared(place);
         if squared < self.squared {
@@ -126,7 +126,7 @@ impl<'a> Range<'a> {
 /// Searches a range for nearer points. `away` is the distance along each axis of the place from the part of space that
 /// the range fills (Arya and Mount 1993, "Algorithms for fast vector quantization"): from far away no single axis shows
 /// that a part is too far.
-fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut Found) {
+fn search(points: &[DVec3], axes: &[u8], place: DVec3, away: DVec3, nearest: &mut NearestPoint) {
     if points.len() <= LEAF {
         points.iter().for_each(|&point| nearest.look_at(point, place));
         return;

@@ -25,7 +25,7 @@ use crate::kdrt::{
     conquer::SeamCells,
     fill::{Filling, Footprints},
     options::{Options, Progressive},
-    region::{Part, Placed, Region},
+    region::{Part, Placed, TiledSamples},
     stack::{Base, Cached, Layer, Stack, images},
     tiling::{cut, is_wide},
 };
@@ -159,7 +159,7 @@ pub fn first(job: &Job, options: &Options, levels: &Progressive, count: usize) -
         }
         let finer = Lattice::of_any_size(&domain, radius)?;
         let level = Level::new(finer.clone(), &before, level_seed(seed, step), Arc::default(), 0.0);
-        let known = Region::new(whole, &samples, level.radius());
+        let known = TiledSamples::new(whole, &samples, level.radius());
         // A level may have fewer samples than expected, but progress does not fall.
         let expected = (samples.len() as f64 * quotient * quotient / count as f64).min(1.0);
         let next = done.max(COARSEST_SHARE + (1.0 - COARSEST_SHARE) * expected);
@@ -341,7 +341,7 @@ impl Level {
     }
 
     /// The samples of this level in a window of blocks, as far as they lie in `rect`.
-    fn fill_window(&self, blocks: &Blocks, before: &Region<Sample>, window: &Rect, rect: &Rect) -> Vec<Sample> {
+    fn fill_window(&self, blocks: &Blocks, before: &TiledSamples<Sample>, window: &Rect, rect: &Rect) -> Vec<Sample> {
         let known = self.known(blocks, window);
         let mut grid = CellGrid::new(&self.axes, &known, self.lattice.separation);
         grid.set_obstacles(self.around.near(&known));
@@ -368,7 +368,7 @@ impl Level {
     }
 
     /// Fills the domain as a whole.
-    fn fill_whole(&self, job: &Job, before: &Region<Sample>) -> Result<Vec<Sample>> {
+    fn fill_whole(&self, job: &Job, before: &TiledSamples<Sample>) -> Result<Vec<Sample>> {
         let (rect, separation) = (self.lattice.rect(), self.lattice.separation);
         let grid_before = || {
             let mut grid = match self.lattice.boundary {
@@ -443,14 +443,14 @@ impl Layer for Level {
         }
     }
 
-    fn sorted(&self, part: Part, before: &[Sample]) -> Region<Sample> {
-        Region::new(part, before, self.before.min(self.radius() * 2.0))
+    fn sorted(&self, part: Part, before: &[Sample]) -> TiledSamples<Sample> {
+        TiledSamples::new(part, before, self.before.min(self.radius() * 2.0))
     }
 
-    fn fill(&self, job: &Job, before: &Region<Sample>, part: &Part) -> Result<Vec<Sample>> {
+    fn fill(&self, job: &Job, before: &TiledSamples<Sample>, part: &Part) -> Result<Vec<Sample>> {
         let Some(blocks) = &self.blocks else {
             let samples = self.fill_whole(job, before)?;
-            return Ok(Region::new(Part::whole(&self.lattice), &samples, self.radius()).samples_of(part));
+            return Ok(TiledSamples::new(Part::whole(&self.lattice), &samples, self.radius()).samples_of(part));
         };
         let windows = cut(&blocks.holding(&part.rect), WINDOW_BLOCKS);
         job.flat_map(windows.len(), |i| self.fill_window(blocks, before, &windows[i], &part.rect))

@@ -63,7 +63,7 @@ pub trait Placed: Copy + Default {
 }
 
 /// The samples of a part, by tiles.
-pub struct Region<S> {
+pub struct TiledSamples<S> {
     part: Part,
     /// The side of a tile in lattice points, and the number of tiles along each axis.
     side: i32,
@@ -71,7 +71,7 @@ pub struct Region<S> {
     tiles: Binned<S>,
 }
 
-impl<S: Placed> Region<S> {
+impl<S: Placed> TiledSamples<S> {
     /// The samples of a part, which are farther apart than a radius in lattice units.
     pub fn new(part: Part, samples: &[S], radius: f64) -> Self {
         let side = (TILE * radius) as i32;
@@ -138,7 +138,7 @@ mod tests {
             let samples: Vec<_> = (0..300)
                 .map(|i| Sample { point: lattice.size.map(|size| any(&mut rng, 0, size)), square: i })
                 .collect();
-            let region = Region::new(Part::whole(&lattice), &samples, lattice.radius);
+            let region = TiledSamples::new(Part::whole(&lattice), &samples, lattice.radius);
             for _ in 0..200 {
                 let min = lattice.size.map(|size| any(&mut rng, -2 * size, 2 * size));
                 let rect = Rect { min, max: [0, 1].map(|axis| min[axis] + any(&mut rng, 1, 3 * lattice.size[axis])) };
@@ -159,7 +159,7 @@ mod tests {
                 if part.rect.is_empty() {
                     continue;
                 }
-                let within = Region::new(part, &region.samples_of(&part), lattice.radius);
+                let within = TiledSamples::new(part, &region.samples_of(&part), lattice.radius);
                 let inner = Rect { min: part.rect.min, max: part.rect.max.map(|x| x - 1) };
                 let mut visited = Vec::new();
                 within.visit(&inner, |sample| visited.push((sample.point, sample.square)));

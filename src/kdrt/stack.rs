@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::kdrt::{
     cache::Cache,
-    region::{Part, Placed, Region},
+    region::{Part, Placed, TiledSamples},
     tiling::Tiling,
 };
 use crate::plane::{CellAxis, GivenDisks, Lattice, Rect};
@@ -57,10 +57,10 @@ pub trait Layer: Cached {
     fn around(&self, part: &Part) -> Part;
 
     /// The samples of the layers before, sorted for this one.
-    fn sorted(&self, part: Part, before: &[Self::Sample]) -> Region<Self::Sample>;
+    fn sorted(&self, part: Part, before: &[Self::Sample]) -> TiledSamples<Self::Sample>;
 
     /// The samples of this layer in a part, around those of the layers before in [`Layer::around`] it.
-    fn fill(&self, job: &Job, before: &Region<Self::Sample>, part: &Part) -> Result<Vec<Self::Sample>>;
+    fn fill(&self, job: &Job, before: &TiledSamples<Self::Sample>, part: &Part) -> Result<Vec<Self::Sample>>;
 }
 
 /// The layers of a plane, of which any part can be made.
@@ -70,12 +70,12 @@ pub struct Stack<L: Layer> {
     base: Option<(Base, L::Sample)>,
     layers: Vec<L>,
     /// The number of layers that are kept, and the samples up to the last of them.
-    kept: Option<(usize, Region<L::Sample>)>,
-    /// What windows made of the other layers, if the stack is kept.
+    kept: Option<(usize, TiledSamples<L::Sample>)>,
+    /// The parts of the other layers that windows have filled, if the stack is kept.
     cache: Option<Cache<L::Sample>>,
 }
 
-/// What is to be made of a layer for a part.
+/// The rectangle of a layer that a part asks for.
 struct Step<S> {
     part: Part,
     /// The samples of the layer in the part that were made before.
@@ -184,7 +184,7 @@ impl<L: Layer> Stack<L> {
         Ok(samples)
     }
 
-    /// What a part of a layer needs: of a layer that is made by blocks, those that are not cached.
+    /// The need of a part of a layer: of a layer that is made by blocks, those that are not cached.
     fn step(&self, number: usize, part: &Part, cache: Option<&Cache<L::Sample>>) -> Step<L::Sample> {
         let layer = &self.layers[number];
         let Some((cache, blocks)) = cache.zip(layer.blocks()) else {
@@ -236,11 +236,11 @@ pub enum Base {
     /// Any part of it is made on demand.
     Tiled(Box<Tiling>),
     /// The whole set is stored.
-    Whole(Whole),
+    Whole(WholeSet),
 }
 
 /// A set that is made as a whole.
-pub struct Whole {
+pub struct WholeSet {
     lattice: Lattice,
     /// The rows of cells that the samples are ordered by, from left to right in each.
     rows: CellAxis,
@@ -254,7 +254,7 @@ impl Base {
             return Ok(Self::Tiled(Box::new(Tiling::new(job, lattice, leaf_size, seed, around)?)));
         }
         let samples = maximal::sample_lattice_around(job, &lattice, seed, around.near(&lattice.rect()))?;
-        Ok(Self::Whole(Whole { rows: CellAxis::new(lattice.size[1], lattice.radius), lattice, samples }))
+        Ok(Self::Whole(WholeSet { rows: CellAxis::new(lattice.size[1], lattice.radius), lattice, samples }))
     }
 
     /// All samples of [`Base::new`], with nothing stored.
@@ -297,7 +297,7 @@ impl Base {
     pub fn points(&self, job: &Job, rect: &Rect) -> Result<Vec<[i32; 2]>> {
         match self {
             Self::Tiled(tiling) => tiling.points(job, rect),
-            Self::Whole(Whole { lattice, samples, .. }) => {
+            Self::Whole(WholeSet { lattice, samples, .. }) => {
                 let points = samples.iter().map(|&sample| lattice.point(sample));
                 Ok(points.filter(|&point| rect.contains(point)).collect())
             }
@@ -336,7 +336,7 @@ impl Base {
     }
 }
 
-impl Whole {
+impl WholeSet {
     /// The samples in a part of the domain: in O(log n) for each row and O(1) for each sample.
     fn window(&self, window: &Domain) -> Vec<[f32; 2]> {
         let points = self.lattice.points_in(window);

@@ -28,7 +28,7 @@ pub(crate) struct CellGrid {
     /// The coordinates of the samples by rows of cells, margins included, and as many cells more as are read beyond the
     /// end of a row.
     samples: [Vec<i32>; 2],
-    torus: Option<Torus>,
+    torus: Option<PeriodicAxes>,
     vectors: Level,
     separation: Separation,
     obstacles: Obstacles,
@@ -36,7 +36,7 @@ pub(crate) struct CellGrid {
 
 /// The axes along which a grid covers the whole of a torus.
 #[derive(Clone, Copy)]
-struct Torus {
+struct PeriodicAxes {
     /// The number of cells of the grid.
     cells: [i32; 2],
     /// The period in lattice points along those axes.
@@ -81,7 +81,7 @@ impl CellGrid {
     pub fn wrapping(axes: &[CellAxis; 2], rect: &Rect, wraps: [bool; 2], separation: Separation) -> Self {
         let grid = Self::new(axes, rect, separation);
         let size = [0, 1].map(|axis: usize| if wraps[axis] { axes[axis].size } else { i32::MAX });
-        let torus = Torus { cells: grid.counts(), size, turns: wraps.map(i32::from) };
+        let torus = PeriodicAxes { cells: grid.counts(), size, turns: wraps.map(i32::from) };
         Self { torus: (wraps != [false; 2]).then_some(torus), ..grid }
     }
 
@@ -312,7 +312,7 @@ impl CellGrid {
     }
 
     /// Adds the images of a sample of a torus that lie in the margin.
-    fn insert_images(&mut self, cell: [i32; 2], point: [i32; 2], Torus { cells, size, turns }: Torus) {
+    fn insert_images(&mut self, cell: [i32; 2], point: [i32; 2], PeriodicAxes { cells, size, turns }: PeriodicAxes) {
         let inside = (0..2).all(|axis| (self.margin[axis]..cells[axis] - self.margin[axis]).contains(&cell[axis]));
         if inside {
             return;

@@ -150,12 +150,12 @@ pub(super) struct Farthest {
 /// The farthest point of each of `N` places, as far as known.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Known<const N: usize> {
+struct FarthestKnown<const N: usize> {
     squared: [f64; N],
     index: [u32; N],
 }
 
-impl<const N: usize> Known<N> {
+impl<const N: usize> FarthestKnown<N> {
     /// Places without a point: farther than none, behind all.
     const EMPTY: Self = Self { squared: [0.0; N], index: [u32::MAX; N] };
 
@@ -200,7 +200,7 @@ pub(super) enum Nearer {
 /// A few points that are near each other.
 #[derive(Clone, Debug)]
 pub(super) struct Leaf<const D: usize> {
-    known: Known<POINTS>,
+    known: FarthestKnown<POINTS>,
     /// Lanes without a point repeat one, and so are in the box.
     places: [[f32; POINTS]; D],
 }
@@ -208,7 +208,7 @@ pub(super) struct Leaf<const D: usize> {
 impl<const D: usize> Leaf<D> {
     /// A leaf of 1 to [`POINTS`] points, all at this distance from the selected ones.
     pub fn new(points: &[([f32; D], u32)], squared: f64) -> Self {
-        let mut leaf = Self { known: Known::EMPTY, places: points[0].0.map(|x| [x; POINTS]) };
+        let mut leaf = Self { known: FarthestKnown::EMPTY, places: points[0].0.map(|x| [x; POINTS]) };
         for (lane, &(place, index)) in points.iter().enumerate() {
             leaf.known.set(lane, Farthest { squared, index });
             (0..D).for_each(|axis| leaf.places[axis][lane] = place[axis]);
@@ -242,7 +242,7 @@ impl<const D: usize> Leaf<D> {
 /// Eight boxes of points, and the farthest point of each.
 #[derive(Clone, Debug)]
 pub(super) struct Node<const D: usize> {
-    known: Known<BOXES>,
+    known: FarthestKnown<BOXES>,
     low: [[f32; BOXES]; D],
     high: [[f32; BOXES]; D],
 }
@@ -275,7 +275,7 @@ impl<const D: usize> Extent<D> {
 impl<const D: usize> Node<D> {
     /// The node of 1 to [`BOXES`] boxes, and the box around all of them.
     pub fn new(boxes: &[(Extent<D>, Farthest)]) -> (Self, Extent<D>) {
-        let mut node = Self { known: Known::EMPTY, low: [[0.0; BOXES]; D], high: [[0.0; BOXES]; D] };
+        let mut node = Self { known: FarthestKnown::EMPTY, low: [[0.0; BOXES]; D], high: [[0.0; BOXES]; D] };
         for (lane, &(extent, farthest)) in boxes.iter().enumerate() {
             node.known.set(lane, farthest);
             for axis in 0..D {

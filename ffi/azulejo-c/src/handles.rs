@@ -61,7 +61,7 @@ pub(crate) fn make<T: Handle>(value: T) -> *mut T {
     Box::into_raw(Box::new(Tagged { tag: AtomicU64::new(const { tag::<T>() }), value })).cast()
 }
 
-/// What a handle of the caller leads to; refuses what can be seen not to be one.
+/// The value behind a handle of the caller; refuses pointers that can be seen not to be one.
 ///
 /// # Safety
 /// Unless the checks fail, `pointer` leads to at least 8 bytes, and if these are the tag, to a handle that is not freed

@@ -107,7 +107,7 @@ fn topic(crate_root: &Path, source: &str) -> String {
     laid_out(&generated.lines().map(untagged).collect::<String>())
 }
 
-/// What cbindgen makes, with its comments in fewer lines: one of a line stands behind the constant or the field that it
+/// The output of cbindgen, with its comments in fewer lines: one of a line stands behind the constant or the field that it
 /// is of, and what is said of arguments is a list without empty lines.
 fn laid_out(generated: &str) -> String {
     let (mut laid_out, mut comment) = (String::new(), Vec::new());

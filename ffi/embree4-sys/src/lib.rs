@@ -33,7 +33,7 @@ mod bindings {
     include!(concat!(env!("OUT_DIR"), "/bindings.rs"));
 }
 
-/// What the headers hold inline, compiled into this crate.
+/// The inline functions of the headers, compiled into this crate.
 mod inline {
     #![allow(missing_docs, non_snake_case, clippy::all, clippy::undocumented_unsafe_blocks)]
     use crate::bindings::*;
@@ -76,7 +76,7 @@ pub const BOUND_VERSION: Version =
 /// Embree is not on this machine, or lacks functions of the bound version.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Missing {
-    /// What the dynamic linker says.
+    /// The message of the dynamic linker.
     pub reason: String,
 }
 

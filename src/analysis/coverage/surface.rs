@@ -94,7 +94,7 @@ pub fn surface_coverage(
 
 /// A place of each uncovered part of the fragments that is small enough to be of one gap.
 fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) -> Result<Vec<[f32; 3]>> {
-    // What cannot be kept is refused before any of it is gathered.
+    // More places than can be kept are refused before any is gathered.
     let tasks = chunks_of(fragments.len(), TASK);
     let least = job.part(0.0, 0.1).map(tasks.len(), |task| {
         let uncovered = fragments[tasks.range(task)].iter().filter(|fragment| fragment.is_uncovered(tree, radius));

@@ -18,7 +18,7 @@ const ROUNDING: f32 = 1.0 + 1e-5;
 const CALM: f32 = 1e-3;
 
 /// A sample that moves farther than this in a step, in spacings, wakes those around it.
-const STIRRING: f32 = 5e-3;
+const WAKING: f32 = 5e-3;
 
 /// A moving sample.
 #[derive(Clone, Copy, Default)]
@@ -132,7 +132,7 @@ impl Work for Moves<'_> {
             // A sample that others push, now or when limits have grown, never rests.
             if state.rest > 0 && sum == Vec2::ZERO && length < CALM && nearest >= NEAR * NEAR {
                 (mover.rest, mover.velocity) = (state.rest, Vec2::ZERO);
-            } else if length > STIRRING {
+            } else if length > WAKING {
                 after.stirring.push(sample as u32);
             }
             k += 1;

@@ -30,7 +30,7 @@ const STRIDE: f32 = 0.4;
 /// The factor of the largest displacement from step to step when constraints no longer grow stiffer. Where the
 /// curvature is high for the density of the samples, the forces of two of them on each other are not opposite, and they
 /// would never come to rest.
-const CALMING: f64 = 0.9;
+const STRIDE_DECAY: f64 = 0.9;
 
 /// The largest distance by which positions change in a step, in spacings: the stride, and rounding.
 pub const FARTHEST: f32 = 0.41;
@@ -160,7 +160,7 @@ impl<'a> SurfaceRelaxation<'a> {
             floor,
             constraints: Constraints::of_step(iteration),
             limits: Limits::of_step(iteration, floor),
-            stride: STRIDE * power(CALMING, iteration.saturating_sub(STIFFENING)) as f32,
+            stride: STRIDE * power(STRIDE_DECAY, iteration.saturating_sub(STIFFENING)) as f32,
             rest: rest(iteration),
         };
         let movers = self.movers.chunks_mut(CHUNK).zip(locals.chunks_mut(CHUNK));

@@ -34,7 +34,7 @@ pub fn spread(
     if floor.distance() >= APART * spacing {
         return Ok(None);
     }
-    let throws = Throws::new(mesh, seed);
+    let throws = RandomPoints::new(mesh, seed);
     let tasks = chunks(places.len());
     let thrown = job.part(0.0, 0.5).concat(tasks.len(), |task| tasks.range(task).map(|i| throws.at(i, 0)).collect())?;
     let samples = along_curve(mesh, places);
@@ -52,7 +52,7 @@ pub fn spread(
 }
 
 /// Random points of a mesh.
-struct Throws<'a> {
+struct RandomPoints<'a> {
     mesh: &'a Mesh,
     seed: u64,
     triangles: Vec<u32>,
@@ -60,7 +60,7 @@ struct Throws<'a> {
     areas: Weights,
 }
 
-impl<'a> Throws<'a> {
+impl<'a> RandomPoints<'a> {
     fn new(mesh: &'a Mesh, seed: u64) -> Self {
         let (triangles, areas) = mesh.triangles_with_area(0..mesh.triangles().len()).unzip();
         Self { mesh, seed, triangles, areas: Weights::new(areas) }
@@ -136,7 +136,7 @@ mod tests {
     }
 
     fn uniform(mesh: &Mesh, count: usize) -> Vec<SurfacePoint> {
-        let throws = Throws::new(mesh, 77);
+        let throws = RandomPoints::new(mesh, 77);
         (0..count).map(|sample| throws.at(sample, 0)).collect()
     }
 

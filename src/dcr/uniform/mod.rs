@@ -370,7 +370,7 @@ pub fn kick(number: u32, point: usize) -> Vec2 {
 
 /// The results of a gather.
 #[derive(Default)]
-pub struct Findings {
+pub struct StepOutcome {
     /// The edges that may have to be flipped, in the order of the points.
     pub suspects: Vec<Edge>,
     /// True if a triangle had turned over.
@@ -392,11 +392,17 @@ struct Part<'a> {
 
 impl Step<'_> {
     /// Writes the state after `now`.
-    pub fn advance(&self, job: &Job, neighbours: &NeighbourSearch, now: &State, next: &mut State) -> Result<Findings> {
+    pub fn advance(
+        &self,
+        job: &Job,
+        neighbours: &NeighbourSearch,
+        now: &State,
+        next: &mut State,
+    ) -> Result<StepOutcome> {
         let count = now.velocities.len();
         let found = job.part(0.0, 0.9).map_each(parts(count, next), |part| {
             let constraints = &self.constraints;
-            let mut gathering = Gathering { step: self, now, part, is_free: false, found: Findings::default() };
+            let mut gathering = Gathering { step: self, now, part, is_free: false, found: StepOutcome::default() };
             let points = gathering.part.points.clone();
             match neighbours {
                 NeighbourSearch::Nearest(cells) => {
@@ -421,7 +427,7 @@ impl Step<'_> {
             gathering.found
         })?;
         self.torus.mirror(&job.part(0.9, 1.0), &mut next.places, count)?;
-        let mut all = Findings::default();
+        let mut all = StepOutcome::default();
         for part in found {
             all.suspects.extend(part.suspects);
             all.is_unsound |= part.is_unsound;
@@ -440,7 +446,7 @@ struct Gathering<'a> {
     part: Part<'a>,
     /// True if the mesh does not hold points back: they move as if they were in no mesh.
     is_free: bool,
-    found: Findings,
+    found: StepOutcome,
 }
 
 impl Gathering<'_> {

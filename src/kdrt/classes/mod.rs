@@ -23,7 +23,7 @@ use crate::kdrt::{
     classes::{filling::ClassFilling, filling::ExclusionDisk},
     options::{Options, Progressive},
     progressive,
-    region::{Part, Placed, Region},
+    region::{Part, Placed, TiledSamples},
     stack::{Base, Cached, Layer, Stack},
     tiling::Tiling,
 };
@@ -114,7 +114,7 @@ pub fn ordered(ranks: &[f32], mut samples: Vec<Sample>, position: impl Fn([i32; 
 /// Blocks that one task fills, one after the other.
 const BLOCKS_PER_TASK: usize = 64;
 
-/// The radius by which the samples of the groups before are sorted into tiles ([`Region::new`]), as a share of their
+/// The radius by which the samples of the groups before are sorted into tiles ([`TiledSamples::new`]), as a share of their
 /// smallest own radius: chosen so that a tile has a few of them.
 const TILE: f64 = 0.25;
 
@@ -171,9 +171,9 @@ pub struct Group {
 pub struct Known<'a> {
     blocks: &'a Blocks,
     /// The samples of the groups before.
-    before: &'a Region<Sample>,
+    before: &'a TiledSamples<Sample>,
     /// The samples of the group made so far.
-    made: &'a Made,
+    made: &'a BlockSamples,
 }
 
 /// The stage at which a group is made: the whole of it or, in progressive order, a level.
@@ -390,19 +390,19 @@ impl Layer for Group {
         }
     }
 
-    fn sorted(&self, part: Part, before: &[Sample]) -> Region<Sample> {
-        Region::new(part, before, TILE * self.before)
+    fn sorted(&self, part: Part, before: &[Sample]) -> TiledSamples<Sample> {
+        TiledSamples::new(part, before, TILE * self.before)
     }
 
-    fn fill(&self, job: &Job, before: &Region<Sample>, part: &Part) -> Result<Vec<Sample>> {
+    fn fill(&self, job: &Job, before: &TiledSamples<Sample>, part: &Part) -> Result<Vec<Sample>> {
         let Some(blocks) = &self.blocks else {
             let samples = self.fill_torus(job, before.samples())?;
-            return Ok(Region::new(Part::whole(&self.lattice), &samples, self.lattice.radius).samples_of(part));
+            return Ok(TiledSamples::new(Part::whole(&self.lattice), &samples, self.lattice.radius).samples_of(part));
         };
         self.require_memory(blocks.largest(), job.context().num_threads())?;
         let window = blocks.holding(&part.rect);
         let first = first_window(blocks, &window);
-        let mut made = Made::new(&self.lattice, blocks, &window, &blocks.filled(&first));
+        let mut made = BlockSamples::new(&self.lattice, blocks, &window, &blocks.filled(&first));
         for (pass, window, [from, to]) in [(Pass::First, first, [0.0, 0.4]), (Pass::Last, window, [0.4, 1.0])] {
             let job = job.part(from, to);
             for (share, phase) in (0..).zip(PHASES) {
@@ -455,7 +455,7 @@ pub fn first_window(blocks: &Blocks, window: &Rect) -> Rect {
 }
 
 /// The samples that a rectangle of blocks has so far.
-pub struct Made {
+pub struct BlockSamples {
     /// The blocks held; along an axis on which the window has all blocks of a torus, each of them once.
     blocks: Rect,
     /// The numbers of blocks and of lattice points along such an axis.
@@ -463,7 +463,7 @@ pub struct Made {
     samples: Vec<Vec<Sample>>,
 }
 
-impl Made {
+impl BlockSamples {
     /// No samples yet in the blocks that are filled for a window.
     pub fn new(lattice: &Lattice, blocks: &Blocks, window: &Rect, filled: &Rect) -> Self {
         let (mut held, mut periods) = (*filled, [None; 2]);
