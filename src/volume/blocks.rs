@@ -123,8 +123,8 @@ mod tests {
         for boundary in [Boundary::Periodic, Boundary::Bounded] {
             for (size, seed) in [[0.5, 0.4, 0.3], [0.9, 0.05, 0.002], [0.19, 0.17, 0.2]].into_iter().zip(0..) {
                 let (lattice, blocks) = blocks(size, boundary, seed);
-                let volume = |rect: &Rect<3>| (0..3).map(|axis| i64::from(rect.length(axis))).product::<i64>();
-                let all: i64 = blocks.leaves.iter().map(|leaf| volume(&leaf.rect)).sum();
+                let volume = |rect: &Rect<3>| (0..3).map(|axis| i128::from(rect.length(axis))).product::<i128>();
+                let all: i128 = blocks.leaves.iter().map(|leaf| volume(&leaf.rect)).sum();
                 assert_eq!(all, volume(&lattice.rect()));
                 let periods = displacements(&lattice, [boundary == Boundary::Periodic; 3]);
                 for (number, leaf) in blocks.leaves.iter().enumerate() {

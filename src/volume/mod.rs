@@ -26,10 +26,10 @@ use crate::volume::set::Set;
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
 /// before they are put to the others, and positions.
-const BYTES_PER_SAMPLE: f64 = 40.0;
+const BYTES_PER_SAMPLE: f64 = 27.0;
 
 /// The most bytes of the grid and the voxels of a block, which each thread has.
-const BYTES_PER_THREAD: f64 = (8 << 20) as f64;
+const BYTES_PER_THREAD: f64 = (4 << 20) as f64;
 
 /// The least number of samples for which another thread is of use.
 const SAMPLES_PER_THREAD: f64 = 1000.0;
