@@ -460,6 +460,7 @@ static void signatures(void) {
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
     CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
+    CHECK(volume_options_init && volume_report_init && volume_sample);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);
 }
 
