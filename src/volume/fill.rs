@@ -15,6 +15,9 @@ use crate::volume::voxels::{Level, Voxel};
 /// The first darts for each sample that will stand in the region: they bring three quarters of them.
 const FIRST_DARTS: f64 = 20.0;
 
+/// A region that is thinner than this, in radii, has as many samples as one of this thickness: those of a plane.
+const THIN: f64 = 0.95;
+
 /// The darts of a round for each voxel: from the first round on, the last for all others.
 const DARTS: [f64; 4] = [1.0, 1.0, 1.0, 2.0];
 
@@ -72,9 +75,9 @@ impl Fill<'_> {
     /// Throws darts on the whole region.
     #[inline(always)]
     fn throw_first<L: Lanes>(&mut self, lanes: L, cells: &Level, accepted: &mut Vec<Centre>) {
-        let volume: f64 = (0..3).map(|axis| f64::from(self.region.length(axis)) / self.radius).product();
-        let (mut left, count) =
-            ((FIRST_DARTS * MAXIMAL_DENSITY_IN_SPACE * volume).ceil() as u64, self.grid.cells() as u64);
+        let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
+        let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
+        let (mut left, count) = ((FIRST_DARTS * expected).ceil() as u64, self.grid.cells() as u64);
         while left > 0 {
             let cell = self.rng.below(count);
             self.throw(lanes, cells, Voxel::cell(cell as usize), accepted);
@@ -89,7 +92,7 @@ impl Fill<'_> {
         let (mut parts, mut number) = (Vec::new(), 0);
         loop {
             let level = &levels[number];
-            // All cells are open, and known to be nearly covered.
+            // First darts have fallen on whole cells: the rounds begin with their parts.
             if number > 0 {
                 let per_voxel = DARTS[(number - 1).min(DARTS.len() - 1)];
                 let mut left = (per_voxel * open.len() as f64).ceil() as u64;
