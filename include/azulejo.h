@@ -1,5 +1,5 @@
 /*
- * azulejo: blue-noise sampling of planes and triangle meshes, and relaxation of point sets.
+ * azulejo: blue-noise sampling of planes, triangle meshes and volumes; relaxation of point sets.
  *
  * This header is generated from ffi/azulejo-c by cbindgen; do not edit it. It is C99. C++ programs
  * may prefer azulejo.hpp, which wraps it.
@@ -38,13 +38,14 @@
  *   fewer points of a cloud that exists           azulejo_thin
  *   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax
  *   a mesh whose vertices are the samples         azulejo_dcr_remesh
+ *   samples of a cuboid                           azulejo_volume_sample
  *   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_mesh_coverage,
  *                                                 azulejo_spectrum_create
  *   the slow unbiased reference                   azulejo_maximal_sample
  *
- * azulejo/base.h has what all calls share; azulejo/kdrt.h, psp.h, dcr.h, thin.h and analysis.h have
- * the calls, each with its options before it. Each can be included alone. The guide is
- * docs/integrating.md, a table of all options docs/options.md.
+ * azulejo/base.h has what all calls share; azulejo/kdrt.h, psp.h, volume.h, dcr.h, thin.h and
+ * analysis.h have the calls, each with its options before it. Each can be included alone. The
+ * guide is docs/integrating.md, a table of all options docs/options.md.
  *
  * The following holds for every function; their texts state exceptions only.
  *
@@ -153,6 +154,7 @@
 #include "azulejo/base.h"
 #include "azulejo/kdrt.h"
 #include "azulejo/psp.h"
+#include "azulejo/volume.h"
 #include "azulejo/dcr.h"
 #include "azulejo/thin.h"
 #include "azulejo/analysis.h"

@@ -223,14 +223,14 @@ private:
 
 // ---- Points ------------------------------------------------------------------------------------
 
-/// Samples of the plane or of a mesh; see azulejo_points.
+/// Samples of the plane, of a mesh or of a cuboid; see azulejo_points.
 class Points : public Owner<azulejo_points, azulejo_points_free> {
 public:
     using Owner::Owner;
 
     /// The number of samples; see azulejo_points_count.
     std::size_t size() const noexcept { return azulejo_points_count(get()); }
-    /// 2 for samples of the plane, 3 for samples of a mesh; see azulejo_points_dimension.
+    /// 2 for samples of the plane, 3 for samples of space; see azulejo_points_dimension.
     std::uint32_t dimension() const noexcept { return azulejo_points_dimension(get()); }
     /// dimension() coordinates for each sample; see azulejo_points_positions.
     Positions positions() const & noexcept {
@@ -853,6 +853,8 @@ using PspOptions = GivenOptions<Options<azulejo_psp_options, azulejo_psp_options
 using DcrOptions = PlaneOptions<azulejo_dcr_options, azulejo_dcr_options_init>;
 /// See azulejo_dcr_surface_options.
 using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surface_options_init>;
+/// See azulejo_volume_options; `radius` has no default.
+using VolumeOptions = Options<azulejo_volume_options, azulejo_volume_options_init>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
 using ThinOptions = Options<azulejo_thin_options, azulejo_thin_options_init>;
 
@@ -984,6 +986,7 @@ struct Report : C {
 
 using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
 using ClassesReport = Report<azulejo_classes_report, azulejo_classes_report_init>;
+using VolumeReport = Report<azulejo_volume_report, azulejo_volume_report_init>;
 using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
 using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
@@ -1727,6 +1730,14 @@ inline Status try_maximal_sample(const Context &context, const MaximalOptions &o
     });
 }
 
+/// A maximal set of samples of a cuboid; see azulejo_volume_sample.
+inline Status try_volume_sample(const Context &context, const VolumeOptions &options, Points &out,
+                                VolumeReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_volume_sample(context.get(), &options, points, report);
+    });
+}
+
 /// Samples of a mesh in one call; see azulejo_psp_sample.
 inline Status try_psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
                              Points &out, PspReport *report = nullptr) {
@@ -2274,6 +2285,13 @@ inline Points maximal_sample(const Context &context, const MaximalOptions &optio
                              KdrtReport *report = nullptr) {
     Points points;
     check(try_maximal_sample(context, options, points, report));
+    return points;
+}
+
+inline Points volume_sample(const Context &context, const VolumeOptions &options,
+                            VolumeReport *report = nullptr) {
+    Points points;
+    check(try_volume_sample(context, options, points, report));
     return points;
 }
 

@@ -1,4 +1,4 @@
-//! Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
+//! Blue-noise sampling: maximal Poisson-disk sets in the plane, on triangle meshes and in space, and their relaxation.
 //!
 //! | module | what it makes | source |
 //! |---|---|---|
@@ -6,6 +6,7 @@
 //! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
 //! | [`dcr`] | a point set, in the plane or on a mesh, relaxed by distance constraints | thesis ch. 4 |
 //! | [`mod@thin`] | some points of a cloud, far from each other and near to all the others | Gonzalez 1985 |
+//! | [`volume`] | maximal Poisson-disk sets of cuboids | Ebeida et al. 2012 |
 //! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
 //! | [`analysis`] | spacing, coverage, spectra, distances, triangles and bond order of any set | |
 //!
@@ -68,6 +69,7 @@ mod simd;
 pub mod thin;
 #[allow(unsafe_code)]
 pub mod trace;
+pub mod volume;
 
 pub use classes::Classes;
 pub use editable::EditableSet;
@@ -75,7 +77,7 @@ pub use error::{Error, Result};
 pub use given::Given;
 pub use job::{Context, Progress};
 pub use order::Order;
-pub use points::{Boundary, Domain, MAXIMAL_DENSITY, Points};
+pub use points::{Boundary, Domain, MAXIMAL_DENSITY, MAXIMAL_DENSITY_IN_SPACE, Points};
 pub use region::Region;
 
 /// The code blocks of the README are compiled with the documentation tests.

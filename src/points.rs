@@ -9,6 +9,10 @@ pub(crate) use crate::check::{finest_radius, radius as check_radius, resolution 
 /// placement, 0.5470735 (Zhang and Torquato 2013), is the share of the area that disks of *diameter* r cover.
 pub const MAXIMAL_DENSITY: f64 = 0.5470735 * 4.0 / std::f64::consts::PI;
 
+/// N·r³ of an unbiased maximal set of N samples in a volume of 1, 0.73364: the jamming limit in space, 0.38413 (Zhang and
+/// Torquato 2013), is the share of the volume that balls of diameter r fill.
+pub const MAXIMAL_DENSITY_IN_SPACE: f64 = 0.38413 * 6.0 / std::f64::consts::PI;
+
 /// The behaviour of a domain at its boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
@@ -24,37 +28,69 @@ const SHORTEST_SIDE: f64 = 1e-100;
 /// The largest ratio of the sides of a domain, 2^100: spade refuses larger coordinates than 2^201.
 const LARGEST_ASPECT: f64 = (1u128 << 100) as f64;
 
-/// An axis-aligned rectangle of the plane; its samples lie in `min <= x < max`.
+/// An axis-aligned rectangle of the plane, or a cuboid of space if `D` is 3; its samples lie in `min <= x < max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Domain {
+pub struct Domain<const D: usize = 2> {
     /// The lower corner.
-    pub min: [f64; 2],
-    /// The upper corner, above `min` on both axes.
-    pub max: [f64; 2],
+    pub min: [f64; D],
+    /// The upper corner, above `min` on all axes.
+    pub max: [f64; D],
     /// The behaviour at the boundary.
     pub boundary: Boundary,
 }
 
-impl Domain {
-    /// The unit square.
+impl<const D: usize> Domain<D> {
+    /// The unit square or cube.
     pub fn unit(boundary: Boundary) -> Self {
-        Self { min: [0.0; 2], max: [1.0; 2], boundary }
+        Self { min: [0.0; D], max: [1.0; D], boundary }
     }
 
-    /// Width and height.
-    pub fn extent(&self) -> [f64; 2] {
-        [self.max[0] - self.min[0], self.max[1] - self.min[1]]
+    /// The lengths of the sides.
+    pub fn extent(&self) -> [f64; D] {
+        std::array::from_fn(|axis| self.max[axis] - self.min[axis])
     }
 
+    /// True if a sample lies in `min <= x < max`.
+    pub(crate) fn contains(&self, sample: [f32; D]) -> bool {
+        (0..D).all(|axis| (self.min[axis]..self.max[axis]).contains(&f64::from(sample[axis])))
+    }
+
+    /// Refuses a domain that is not a rectangle or cuboid of finite `f32` coordinates, and one that is too thin.
+    pub(crate) fn check(&self) -> Result<()> {
+        for axis in 0..D {
+            let (min, max) = (self.min[axis], self.max[axis]);
+            for (argument, value) in [("domain_min", min), ("domain_max", max)] {
+                if value.is_nan() || value.abs() > f32::MAX as f64 {
+                    return Err(Error::invalid(argument, format!("[{axis}] is {value}, not a finite float")));
+                }
+            }
+            if min >= max {
+                return Err(Error::invalid("domain_max", format!("[{axis}] is {max}, not above domain_min {min}")));
+            }
+        }
+        let extent = self.extent();
+        let shortest = extent.into_iter().fold(f64::INFINITY, f64::min);
+        let longest = extent.into_iter().fold(0.0, f64::max);
+        let sides = || extent.map(|side| format!("{side:e}")).join(" by ");
+        if shortest < SHORTEST_SIDE {
+            let all = if D == 2 { "both" } else { "all" };
+            let reason = format!("the domain is {}; {all} sides are at least {SHORTEST_SIDE:e}", sides());
+            return Err(Error::invalid("domain_max", reason));
+        }
+        if longest > LARGEST_ASPECT * shortest {
+            let (one, other) = if D == 2 { ("one", "the other") } else { ("a", "another") };
+            let reason = format!("the domain is {}; {one} side is at most 2^100 times {other}", sides());
+            return Err(Error::invalid("domain_max", reason));
+        }
+        Ok(())
+    }
+}
+
+impl Domain {
     /// The area.
     pub fn area(&self) -> f64 {
         let [width, height] = self.extent();
         width * height
-    }
-
-    /// True if a sample lies in `min <= x < max`.
-    pub(crate) fn contains(&self, sample: [f32; 2]) -> bool {
-        (0..2).all(|axis| (self.min[axis]..self.max[axis]).contains(&f64::from(sample[axis])))
     }
 
     /// The vector from `from` to `to`; on a torus the shortest of its images.
@@ -98,31 +134,6 @@ impl Domain {
                 ))
             }
         }
-    }
-
-    /// Refuses a domain that is not a rectangle of finite `f32` coordinates, and one that is too thin.
-    pub(crate) fn check(&self) -> Result<()> {
-        for axis in 0..2 {
-            let (min, max) = (self.min[axis], self.max[axis]);
-            for (argument, value) in [("domain_min", min), ("domain_max", max)] {
-                if value.is_nan() || value.abs() > f32::MAX as f64 {
-                    return Err(Error::invalid(argument, format!("[{axis}] is {value}, not a finite float")));
-                }
-            }
-            if min >= max {
-                return Err(Error::invalid("domain_max", format!("[{axis}] is {max}, not above domain_min {min}")));
-            }
-        }
-        let [width, height] = self.extent();
-        if width.min(height) < SHORTEST_SIDE {
-            let reason = format!("the domain is {width:e} by {height:e}; both sides are at least {SHORTEST_SIDE:e}");
-            return Err(Error::invalid("domain_max", reason));
-        }
-        if width.max(height) > LARGEST_ASPECT * width.min(height) {
-            let reason = format!("the domain is {width:e} by {height:e}; one side is at most 2^100 times the other");
-            return Err(Error::invalid("domain_max", reason));
-        }
-        Ok(())
     }
 }
 

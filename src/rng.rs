@@ -56,6 +56,8 @@ pub(crate) enum Draw {
     Group,
     /// KDRT: the filling of gaps in a set that is edited.
     Edit,
+    /// Darts in the blocks of a volume.
+    Volume,
 }
 
 /// The stream of random numbers of one place.

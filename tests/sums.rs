@@ -24,6 +24,8 @@ mod plane_grid;
 mod relaxation;
 #[path = "sums/surface.rs"]
 mod surface;
+#[path = "sums/volume.rs"]
+mod volume;
 
 use azulejo::{Context, Result};
 
@@ -38,6 +40,7 @@ fn sums() -> Result<List> {
     analysis::sums(&context, &sets, &surface, &mut list)?;
     plane_grid::sums(&context, false, &mut list)?;
     mesh_grid::sums(&context, false, &mut list)?;
+    volume::sums(&context, false, &mut list)?;
     Ok(list)
 }
 
@@ -46,6 +49,7 @@ fn few_sums() -> Result<List> {
     let (context, mut list) = (Context::new(0)?, List::default());
     plane_grid::sums(&context, true, &mut list)?;
     mesh_grid::sums(&context, true, &mut list)?;
+    volume::sums(&context, true, &mut list)?;
     Ok(list)
 }
 

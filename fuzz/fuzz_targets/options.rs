@@ -14,6 +14,7 @@ use azulejo_c::merge::*;
 use azulejo_c::mesh::{azulejo_mesh, azulejo_mesh_create};
 use azulejo_c::psp::*;
 use azulejo_c::status::{AZULEJO_OK, azulejo_status};
+use azulejo_c::volume::*;
 use azulejo_fuzz::calls::{Arrays, Owned, Patience, accepted, array, context, create};
 use azulejo_fuzz::input::Input;
 use libfuzzer_sys::fuzz_target;
@@ -23,12 +24,13 @@ fuzz_target!(|bytes: &[u8]| {
     // Every call ends with its first report of progress, but streams: sizes do not matter here, and a set may be as
     // large as it likes.
     let patience = Patience::new(0);
-    match input.below(6) {
+    match input.below(7) {
         0 => kdrt(&mut input, &patience),
         1 => maximal(&mut input, &patience),
         2 => merge(&mut input, &patience),
         3 => psp(&mut input, &patience),
         4 => adaptive(&mut input, &patience),
+        5 => volume(&mut input, &patience),
         _ => dcr(&mut input, &patience),
     }
 });
@@ -184,6 +186,15 @@ fn maximal(input: &mut Input, patience: &Patience) {
     }
     // SAFETY: the options have the size in their `struct_size`.
     create(|out| unsafe { azulejo_maximal_sample(context(), memory.start.cast(), out, std::ptr::null_mut()) });
+}
+
+fn volume(input: &mut Input, patience: &Patience) {
+    let mut memory = hostile(input, azulejo_volume_options_init);
+    if !watched!(memory, azulejo_volume_options, patience) {
+        quick(&mut memory, std::mem::offset_of!(azulejo_volume_options, radius));
+    }
+    // SAFETY: the options have the size in their `struct_size`.
+    create(|out| unsafe { azulejo_volume_sample(context(), memory.start.cast(), out, std::ptr::null_mut()) });
 }
 
 fn merge(input: &mut Input, patience: &Patience) {

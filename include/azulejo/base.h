@@ -146,7 +146,7 @@ typedef struct azulejo_points azulejo_points;
 /// The number of samples; 0 for NULL.
 size_t azulejo_points_count(const azulejo_points *points);
 
-/// The number of coordinates of a position: 2 in the plane, 3 on a mesh; 0 for NULL.
+/// The number of coordinates of a position: 2 in the plane, 3 in space; 0 for NULL.
 uint32_t azulejo_points_dimension(const azulejo_points *points);
 
 /// The positions, x y or x y z of each sample, interleaved. Samples on a mesh lie on their

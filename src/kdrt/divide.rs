@@ -1,4 +1,4 @@
-//! Divide (thesis §2.3.1): the random kd-tree that cuts the plane into leaves.
+//! Divide (thesis §2.3.1): the random kd-tree that cuts the plane into leaves, or space (`D` = 3) into fill blocks.
 //!
 //! Departures: a node's random numbers are keyed by its path from the root, so that any part of the plane is made from
 //! only the nodes that meet it, with the same leaves; and a node is split across its longer side instead of in turns,
@@ -9,26 +9,26 @@ use crate::rng::{Draw, Rng, hash};
 
 /// A leaf of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leaf {
-    pub rect: Rect,
+pub struct Leaf<const D: usize = 2> {
+    pub rect: Rect<D>,
     /// The key of all random numbers of this leaf: the hash of its path.
     pub key: u64,
 }
 
-impl Leaf {
+impl<const D: usize> Leaf<D> {
     /// The rank of the leaf: where leaves meet, the one of higher rank keeps its points. No two leaves have the same
     /// rank.
-    pub fn rank(&self) -> (u64, [i32; 2]) {
+    pub fn rank(&self) -> (u64, [i32; D]) {
         (hash(self.key, Draw::Priority, &[]), self.rect.min)
     }
 }
 
 /// The implicit tree: a node is its rectangle and the hash of its path from the root.
 #[derive(Clone, Debug)]
-pub struct Tree {
-    root: Leaf,
+pub struct Tree<const D: usize = 2> {
+    root: Leaf<D>,
     /// The smallest side of a leaf, per axis: sides are between it and twice it.
-    shortest: [i32; 2],
+    shortest: [i32; D],
     #[cfg(feature = "stages")]
     pub fixed: Fixed,
 }
@@ -47,9 +47,9 @@ pub enum Fixed {
     Clips,
 }
 
-impl Tree {
+impl<const D: usize> Tree<D> {
     /// A tree over `rect`, whose sides are at least `shortest`.
-    pub fn new(rect: Rect, shortest: [i32; 2], seed: u64) -> Self {
+    pub fn new(rect: Rect<D>, shortest: [i32; D], seed: u64) -> Self {
         Self {
             root: Leaf { rect, key: hash(seed, Draw::Split, &[]) },
             shortest,
@@ -59,13 +59,13 @@ impl Tree {
     }
 
     /// All leaves that meet `window`, which lies in the domain. O(leaves met + depth).
-    pub fn leaves(&self, window: &Rect) -> Vec<Leaf> {
+    pub fn leaves(&self, window: &Rect<D>) -> Vec<Leaf<D>> {
         let mut leaves = Vec::new();
         self.descend(self.root, window, &mut leaves);
         leaves
     }
 
-    fn descend(&self, node: Leaf, window: &Rect, leaves: &mut Vec<Leaf>) {
+    fn descend(&self, node: Leaf<D>, window: &Rect<D>, leaves: &mut Vec<Leaf<D>>) {
         if node.rect.intersection(window).is_empty() {
             return;
         }
@@ -78,8 +78,8 @@ impl Tree {
     }
 
     /// The children of a node; none if it is a leaf: a node is split as long as both parts are long enough.
-    fn split(&self, node: Leaf) -> Option<[Leaf; 2]> {
-        let axis = (0..2)
+    fn split(&self, node: Leaf<D>) -> Option<[Leaf<D>; 2]> {
+        let axis = (0..D)
             .filter(|&axis| node.rect.length(axis) / 2 >= self.shortest[axis])
             .max_by_key(|&axis| node.rect.length(axis))?;
         let choices = node.rect.length(axis) - 2 * self.shortest[axis] + 1;

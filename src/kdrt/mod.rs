@@ -42,3 +42,5 @@ pub use editable::EditableSet;
 pub use merge::{MergeOptions, MergeReport, Piece, merge};
 pub use options::{DEFAULT_LEAF_SIZE, Kind, MIN_LEAF_SIZE, Options, Progressive};
 pub use plane::{Plane, sample, sample_window};
+
+pub(crate) use divide::{Leaf, Tree};

@@ -1,4 +1,4 @@
-//! The exact integer lattice on which all sampling of the plane happens.
+//! The exact integer lattice on which all sampling of the plane happens, and that of cuboids (`D` = 3).
 //!
 //! Rounding is where Poisson-disk samplers lose their guarantee: a set that keeps its radius in `f64` does not keep it
 //! once its points are stored as `f32`. Here nothing is rounded. The lattice consists of the multiples of one power of
@@ -11,7 +11,8 @@
 //! correctly. A set is *maximal* when every lattice point of the domain conflicts with one of its points. A point of
 //! the domain between lattice points is at most one unit per axis from one of them, and on a torus the distance across
 //! the seam is at most one unit per axis longer than on the lattice (see [`Lattice::new`]): no point of the domain is
-//! farther than r + 2·sqrt(2)·unit, below **r + 3 float spacings** at the largest coordinate, from all samples.
+//! farther than r + 2·sqrt(2)·unit, below **r + 3 float spacings** at the largest coordinate, from all samples. In space
+//! it is r + 2·sqrt(3)·unit, below **r + 3.5 float spacings**.
 
 use crate::error::{Error, Result};
 use crate::math::{hypot, scalbn};
@@ -31,7 +32,7 @@ const WIDEST: f64 = (1 << 29) as f64;
 const FARTHEST: f64 = (1u64 << 50) as f64;
 
 /// The least distance of two lattice points for a radius.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Separation {
     /// Points whose squared distance is below this conflict.
     pub threshold: i64,
@@ -50,17 +51,73 @@ impl Separation {
 
 /// The lattice of a domain, with the radius in its units.
 #[derive(Clone, Debug)]
-pub(crate) struct Lattice {
+pub(crate) struct Lattice<const D: usize = 2> {
     unit: f64,
     /// The coordinates of the first lattice point; the sum `origin + j * unit` is exact for every lattice point `j`.
-    origin: [f64; 2],
+    origin: [f64; D],
     /// Lattice points per axis; on a torus also the period.
-    pub size: [i32; 2],
+    pub size: [i32; D],
     pub boundary: Boundary,
     /// The radius in lattice units.
     pub radius: f64,
     /// The separation that the radius requires of two lattice points.
     pub separation: Separation,
+}
+
+impl<const D: usize> Lattice<D> {
+    /// The lattice of `domain` for `radius`.
+    ///
+    /// A torus has an integer period, the user's rounded down: distances in the user's period are never smaller,
+    /// and less than one unit per axis larger. In the user's own `f64` arithmetic this holds as well, because
+    /// rounding is monotone and the distances on the lattice are floats.
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`] for a domain or radius out of range, when no float lies in the domain, and when
+    /// floats are too coarse for the radius.
+    pub fn of_any_size(domain: &Domain<D>, radius: f64) -> Result<Self> {
+        domain.check()?;
+        check_radius(radius)?;
+        let unit = float_spacing(domain.min.iter().chain(&domain.max));
+        check_resolution("radius", radius, unit, "the domain's largest coordinate")?;
+        Self::with_unit(domain, unit).map(|lattice| lattice.with_radius(radius))
+    }
+
+    /// The lattice of the multiples of a unit, with an arbitrary radius.
+    fn with_unit(domain: &Domain<D>, unit: f64) -> Result<Self> {
+        let (mut origin, mut size) = ([0.0; D], [0; D]);
+        for axis in 0..D {
+            (origin[axis], size[axis]) = axis_points(domain, axis, unit)?;
+        }
+        Ok(Self { unit, origin, size, boundary: domain.boundary, radius: 0.0, separation: Separation::new(0.0) })
+    }
+
+    /// The same lattice with another radius, in the units of the domain.
+    pub fn with_radius(&self, radius: f64) -> Self {
+        // No two lattice points are as far apart as 2^26, so a longer radius has the same effect and would only
+        // overflow.
+        let radius = (radius / self.unit).min((1 << 26) as f64);
+        Self { radius, separation: Separation::new(radius), ..self.clone() }
+    }
+
+    /// The domain in lattice points.
+    pub fn rect(&self) -> Rect<D> {
+        Rect { min: [0; D], max: self.size }
+    }
+
+    /// The coordinates of a lattice point of the domain: exact.
+    pub fn position(&self, point: [i32; D]) -> [f32; D] {
+        std::array::from_fn(|axis| self.coordinate(axis, point[axis]) as f32)
+    }
+
+    /// One coordinate of the lattice points with this number along an axis: exact.
+    pub fn coordinate(&self, axis: usize, point: i32) -> f64 {
+        self.origin[axis] + f64::from(point) * self.unit
+    }
+
+    /// The length of a unit.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
 }
 
 impl Lattice {
@@ -72,23 +129,6 @@ impl Lattice {
         domain.check()?;
         estimate(domain.extent(), radius)?;
         Self::of_any_size(domain, radius)
-    }
-
-    /// The lattice of `domain` for `radius`.
-    ///
-    /// A torus has an integer period, the user's rounded down: distances in the user's period are never smaller,
-    /// and less than one unit per axis larger. In the user's own `f64` arithmetic this holds as well, because
-    /// rounding is monotone and the distances on the lattice are floats.
-    ///
-    /// # Errors
-    /// [`Error::InvalidArgument`] for a domain or radius out of range, when no float lies in the domain, and when
-    /// floats are too coarse for the radius.
-    pub fn of_any_size(domain: &Domain, radius: f64) -> Result<Self> {
-        domain.check()?;
-        check_radius(radius)?;
-        let unit = float_spacing(domain.min.iter().chain(&domain.max));
-        check_resolution("radius", radius, unit, "the domain's largest coordinate")?;
-        Self::with_unit(domain, unit).map(|lattice| lattice.with_radius(radius))
     }
 
     /// The lattice of a `domain` that need not lie on floats: its unit follows from the radius, which is 256 to 512
@@ -120,27 +160,10 @@ impl Lattice {
         Self::with_unit(domain, unit).map(|lattice| lattice.with_radius(radius))
     }
 
-    /// The lattice of the multiples of a unit, with an arbitrary radius.
-    fn with_unit(domain: &Domain, unit: f64) -> Result<Self> {
-        let (mut origin, mut size) = ([0.0; 2], [0; 2]);
-        for axis in 0..2 {
-            (origin[axis], size[axis]) = axis_points(domain, axis, unit)?;
-        }
-        Ok(Self { unit, origin, size, boundary: domain.boundary, radius: 0.0, separation: Separation::new(0.0) })
-    }
-
     /// The same lattice points with coordinates that begin at one of them, so that those of the first 2^24 from there on
     /// are floats.
     pub fn seen_from(&self, point: [i32; 2]) -> Self {
         Self { origin: point.map(|x| -f64::from(x) * self.unit), ..self.clone() }
-    }
-
-    /// The same lattice with another radius, in the units of the domain.
-    pub fn with_radius(&self, radius: f64) -> Self {
-        // No two lattice points are as far apart as 2^26, so a longer radius has the same effect and would only
-        // overflow.
-        let radius = (radius / self.unit).min((1 << 26) as f64);
-        Self { radius, separation: Separation::new(radius), ..self.clone() }
     }
 
     /// The same lattice with a radius that is longer by a number of units.
@@ -152,11 +175,6 @@ impl Lattice {
     /// A square torus of points of this lattice, with the same radius.
     pub fn square_torus(&self, side: i32) -> Self {
         Self { size: [side; 2], boundary: Boundary::Periodic, ..self.clone() }
-    }
-
-    /// The domain in lattice points.
-    pub fn rect(&self) -> Rect {
-        Rect { min: [0; 2], max: self.size }
     }
 
     /// The approximate number of samples of a maximal set; at least one. On a bounded domain, whose disks lie partly
@@ -194,17 +212,6 @@ impl Lattice {
         })
     }
 
-    /// The coordinates of a lattice point of the domain: exact.
-    pub fn position(&self, point: [i32; 2]) -> [f32; 2] {
-        let along = |axis: usize| self.coordinate(axis, point[axis]) as f32;
-        [along(0), along(1)]
-    }
-
-    /// One coordinate of the lattice points with this number along an axis: exact.
-    pub fn coordinate(&self, axis: usize, point: i32) -> f64 {
-        self.origin[axis] + f64::from(point) * self.unit
-    }
-
     /// The number of the first lattice point along an axis that is not below a coordinate; `size` if there is none.
     pub fn first_from(&self, axis: usize, x: f64) -> i32 {
         let mut point = ((x - self.origin[axis]) / self.unit).ceil().clamp(0.0, f64::from(self.size[axis])) as i32;
@@ -216,11 +223,6 @@ impl Lattice {
             point += 1;
         }
         point
-    }
-
-    /// The length of a unit.
-    pub fn unit(&self) -> f64 {
-        self.unit
     }
 
     /// The position in lattice units; on a torus wrapped into the first period.
@@ -292,7 +294,7 @@ pub fn float_spacing<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
 }
 
 /// The coordinate of an axis's first lattice point, and the number of points.
-fn axis_points(domain: &Domain, axis: usize, unit: f64) -> Result<(f64, i32)> {
+fn axis_points<const D: usize>(domain: &Domain<D>, axis: usize, unit: f64) -> Result<(f64, i32)> {
     let (min, max) = (domain.min[axis], domain.max[axis]);
     if let (first, Some(inside)) = multiples(min, max, unit) {
         let count = match domain.boundary {

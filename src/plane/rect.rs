@@ -1,34 +1,34 @@
-//! Rectangles of lattice points, and of other things counted along two axes.
+//! Rectangles of lattice points, and of other things counted along two axes; cuboids of three.
 
-/// A rectangle of lattice points, `min` inclusive, `max` exclusive.
+/// A rectangle of lattice points, or a cuboid if `D` is 3: `min` inclusive, `max` exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Rect {
-    pub min: [i32; 2],
-    pub max: [i32; 2],
+pub(crate) struct Rect<const D: usize = 2> {
+    pub min: [i32; D],
+    pub max: [i32; D],
 }
 
-impl Rect {
-    pub fn contains(&self, point: [i32; 2]) -> bool {
-        (0..2).all(|axis| self.min[axis] <= point[axis] && point[axis] < self.max[axis])
+impl<const D: usize> Rect<D> {
+    pub fn contains(&self, point: [i32; D]) -> bool {
+        (0..D).all(|axis| self.min[axis] <= point[axis] && point[axis] < self.max[axis])
     }
 
     pub fn intersection(&self, other: &Self) -> Self {
         Self {
-            min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
-            max: [self.max[0].min(other.max[0]), self.max[1].min(other.max[1])],
+            min: std::array::from_fn(|axis| self.min[axis].max(other.min[axis])),
+            max: std::array::from_fn(|axis| self.max[axis].min(other.max[axis])),
         }
     }
 
     /// The smallest rectangle that holds both.
     pub fn hull(&self, other: &Self) -> Self {
         Self {
-            min: [self.min[0].min(other.min[0]), self.min[1].min(other.min[1])],
-            max: [self.max[0].max(other.max[0]), self.max[1].max(other.max[1])],
+            min: std::array::from_fn(|axis| self.min[axis].min(other.min[axis])),
+            max: std::array::from_fn(|axis| self.max[axis].max(other.max[axis])),
         }
     }
 
     pub fn is_empty(&self) -> bool {
-        (0..2).any(|axis| self.min[axis] >= self.max[axis])
+        (0..D).any(|axis| self.min[axis] >= self.max[axis])
     }
 
     /// The rectangle with its edges moved outwards, or inwards by a negative margin.
@@ -36,8 +36,8 @@ impl Rect {
         Self { min: self.min.map(|x| x - margin), max: self.max.map(|x| x + margin) }
     }
 
-    pub fn translated(&self, by: [i32; 2]) -> Self {
-        let shift = |corner: [i32; 2]| std::array::from_fn(|axis| corner[axis] + by[axis]);
+    pub fn translated(&self, by: [i32; D]) -> Self {
+        let shift = |corner: [i32; D]| std::array::from_fn(|axis| corner[axis] + by[axis]);
         Self { min: shift(self.min), max: shift(self.max) }
     }
 

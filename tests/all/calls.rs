@@ -28,6 +28,7 @@ use azulejo::maximal;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
 use azulejo::thin::{self, thin};
+use azulejo::volume;
 use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Order, Points, Progress, Region, Result};
 
 use crate::common::meshes;
@@ -64,6 +65,7 @@ fn relaxed<T: Debug, R: Debug>(result: Result<(T, R)>, stopped: fn(&R) -> Stoppe
 
 const UNIT: Domain = Domain { min: [0.0; 2], max: [1.0; 2], boundary: Boundary::Bounded };
 const TORUS: Domain = Domain { boundary: Boundary::Periodic, ..UNIT };
+const CUBE: Domain<3> = Domain { min: [0.0; 3], max: [1.0; 3], boundary: Boundary::Bounded };
 const SWAPPED: Domain = Domain { min: [1.0; 2], max: [0.0; 2], boundary: Boundary::Bounded };
 const OUTSIDE: [[f32; 2]; 2] = [[0.5; 2], [1.5, 0.5]];
 
@@ -509,6 +511,20 @@ const RELAXATION: &[Call] = &[
     },
 ];
 
+const VOLUME: &[Call] = &[Call {
+    name: "volume::sample",
+    reports: 15,
+    run: |c, p| said(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
+    refused: &[
+        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
+        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
+        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
+        ("domain_max: ", |c, p| {
+            said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
+        }),
+    ],
+}];
+
 const ANALYSIS: &[Call] = &[
     Call {
         name: "analysis::nearest_distances_2d",
@@ -685,6 +701,11 @@ fn calls_of_meshes_are_watched_and_cancelled() {
 }
 
 #[test]
+fn calls_of_volumes_are_watched_and_cancelled() {
+    check(VOLUME);
+}
+
+#[test]
 fn relaxations_are_watched_and_cancelled() {
     check(RELAXATION);
 }
@@ -695,7 +716,7 @@ fn calls_of_the_analysis_are_watched_and_cancelled() {
 }
 
 fn all() -> impl Iterator<Item = &'static Call> {
-    [PLANE, SURFACE, RELAXATION, ANALYSIS].into_iter().flatten()
+    [PLANE, SURFACE, VOLUME, RELAXATION, ANALYSIS].into_iter().flatten()
 }
 
 #[test]

@@ -59,3 +59,4 @@ mod surface_relax;
 mod thin;
 #[cfg(feature = "embree")]
 mod traces;
+mod volume;

@@ -94,6 +94,23 @@ FIELD(azulejo_classes_report, samples, 8);
 FIELD(azulejo_classes_report, counts, 16);
 FIELD(azulejo_classes_report, seconds, 144);
 
+SIZE(azulejo_volume_options, 88);
+FIELD(azulejo_volume_options, struct_size, 0);
+FIELD(azulejo_volume_options, boundary, 4);
+FIELD(azulejo_volume_options, radius, 8);
+FIELD(azulejo_volume_options, domain_min, 16);
+FIELD(azulejo_volume_options, domain_max, 40);
+FIELD(azulejo_volume_options, seed, 64);
+FIELD(azulejo_volume_options, progress, 72);
+FIELD(azulejo_volume_options, progress_user, 80);
+
+SIZE(azulejo_volume_report, 32);
+FIELD(azulejo_volume_report, struct_size, 0);
+FIELD(azulejo_volume_report, reserved, 4);
+FIELD(azulejo_volume_report, samples, 8);
+FIELD(azulejo_volume_report, radius, 16);
+FIELD(azulejo_volume_report, seconds, 24);
+
 SIZE(azulejo_thin_report, 32);
 FIELD(azulejo_thin_report, struct_size, 0);
 FIELD(azulejo_thin_report, reserved, 4);
@@ -409,6 +426,10 @@ static void signatures(void) {
                                         azulejo_points **, azulejo_dcr_surface_report *) = azulejo_dcr_surface_relax;
     azulejo_status (*dcr_remesh)(const azulejo_context *, const azulejo_mesh *, const uint32_t *, const float *, size_t,
                                  azulejo_mesh **, azulejo_dcr_remesh_report *) = azulejo_dcr_remesh;
+    azulejo_status (*volume_options_init)(azulejo_volume_options *, size_t) = azulejo_volume_options_init;
+    azulejo_status (*volume_report_init)(azulejo_volume_report *, size_t) = azulejo_volume_report_init;
+    azulejo_status (*volume_sample)(const azulejo_context *, const azulejo_volume_options *, azulejo_points **,
+                                    azulejo_volume_report *) = azulejo_volume_sample;
     azulejo_status (*thin)(const azulejo_context *, const azulejo_thin_options *, const float *, size_t, uint32_t,
                            azulejo_selection **, azulejo_thin_report *) = azulejo_thin;
     size_t (*selection_count)(const azulejo_selection *) = azulejo_selection_count;
@@ -439,6 +460,7 @@ static void signatures(void) {
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
     CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
+    CHECK(volume_options_init && volume_report_init && volume_sample);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);
 }
 

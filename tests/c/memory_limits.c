@@ -53,6 +53,12 @@ static azulejo_status maximal(const azulejo_context *context, size_t count) {
     return freed(azulejo_maximal_sample(context, &o, &points, NULL), points);
 }
 
+static azulejo_status volume(const azulejo_context *context, size_t count) {
+    const azulejo_volume_options o = volume_options(cbrt(0.7336 / (double)count));
+    azulejo_points *points = NULL;
+    return freed(azulejo_volume_sample(context, &o, &points, NULL), points);
+}
+
 static azulejo_status of_plane(const azulejo_context *context, const azulejo_kdrt_options *options) {
     azulejo_points *points = NULL;
     return freed(azulejo_kdrt_sample(context, options, &points, NULL), points);
@@ -473,6 +479,7 @@ static const struct {
     double most;
 } calls[] = {
     {"maximal", maximal, 500000, MOST_ASKED},
+    {"volume", volume, 1000000, MOST_ASKED},
     {"plane, tiled", tiled, 8000000, MOST_ASKED},
     {"plane, not tiled", not_tiled, 600000, MOST_ASKED},
     {"plane, given samples", plane_around, 2000000, MOST_ASKED},

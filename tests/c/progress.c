@@ -44,6 +44,13 @@ static azulejo_status maximal(watch *w, azulejo_points **out) {
     return azulejo_maximal_sample(context, &o, out, NULL);
 }
 
+static azulejo_status volume(watch *w, azulejo_points **out) {
+    azulejo_volume_options o = volume_options(0.04);
+    o.progress = tell;
+    o.progress_user = w;
+    return azulejo_volume_sample(context, &o, out, NULL);
+}
+
 static azulejo_status psp(watch *w, azulejo_points **out) {
     azulejo_psp_options o = psp_options(0.1);
     o.iterations = 1;
@@ -256,6 +263,7 @@ int main(void) {
         tells_and_stops(scattered);
         the_one_comes_after_the_coverage();
         tells_and_stops(maximal);
+        tells_and_stops(volume);
         tells_and_stops(psp);
         a_relaxation_returns_what_it_has();
         a_psp_handle_survives_cancelling();

@@ -45,6 +45,13 @@ static inline azulejo_kdrt_merge_options merge_options(double radius) {
     return options;
 }
 
+static inline azulejo_volume_options volume_options(double radius) {
+    azulejo_volume_options options;
+    ACCEPTED(azulejo_volume_options_init(&options, sizeof options));
+    options.radius = radius;
+    return options;
+}
+
 static inline azulejo_thin_options thin_options(double radius, size_t count, uint32_t order) {
     azulejo_thin_options options;
     ACCEPTED(azulejo_thin_options_init(&options, sizeof options));

@@ -100,6 +100,7 @@ static void planes(void) {
     const double far_low[2] = {1000, -2.5}, far_high[2] = {1000.4, -1.5};
     const double low[2] = {0.93, 0}, high[2] = {1, 0.05}, part_low[2] = {0.8, 0.3}, part_high[2] = {1, 0.6};
     azulejo_maximal_options maximal = maximal_options(0.01);
+    azulejo_volume_options volume = volume_options(0.02);
     azulejo_kdrt_options o = kdrt(0.002, 20, 3);
     azulejo_kdrt *plane = NULL;
     sha256 stream;
@@ -120,6 +121,8 @@ static void planes(void) {
     o.order = AZULEJO_ORDER_PROGRESSIVE;
     o.coarsest = 0.1;
     POINTS("ordered window", azulejo_kdrt_sample_window(context, &o, far_low, far_high, &points, NULL));
+    volume.seed = 71;
+    POINTS("volume torus", azulejo_volume_sample(context, &volume, &points, NULL));
     o = kdrt(0.003, 20, 62);
     ACCEPTED(azulejo_kdrt_create(context, &o, &plane));
     POINTS("torus kept window", azulejo_kdrt_window(plane, part_low, part_high, &points));

@@ -416,6 +416,21 @@ void thinning() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::plane_thin(context, options, line); }));
 }
 
+void volumes() {
+    const azulejo::Context context(2);
+    azulejo::VolumeOptions options;
+    options.radius = 0.2;
+    options.boundary = AZULEJO_BOUNDARY_BOUNDED;
+    azulejo::VolumeReport report;
+    const auto points = azulejo::volume_sample(context, options, &report);
+    CHECK(points.dimension() == 3 && points.size() == report.samples && points.size() > 100);
+    CHECK(points.positions().size() == 3 * points.size() && points.triangles().empty() && report.radius == 0.2);
+    options.set_progress([](double) { return false; });
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::volume_sample(context, options); }));
+    options.radius = -1;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius: -1", [&] { azulejo::volume_sample(context, options); }));
+}
+
 void adaptive() {
     const azulejo::Context context(3);
     const azulejo::Mesh mesh(positions, indices);
@@ -629,6 +644,7 @@ int main() {
     streams();
     merging();
     thinning();
+    volumes();
     adaptive();
     frames();
     random_numbers();

@@ -182,7 +182,7 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
         if let Some(report) = report {
             report.write(done);
         }
-        Ok(azulejo_points::surface(set))
+        Ok(azulejo_points::space(set))
     })
 }
 

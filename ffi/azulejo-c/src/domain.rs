@@ -1,4 +1,4 @@
-//! Rectangles of the plane, as they stand in options and arguments.
+//! Rectangles of the plane and cuboids of space, as they stand in options and arguments.
 
 use azulejo_core::{Boundary, Context, Domain, Progress};
 
@@ -15,7 +15,7 @@ pub const AZULEJO_BOUNDARY_PERIODIC: u32 = 0;
 pub const AZULEJO_BOUNDARY_BOUNDED: u32 = 1;
 
 /// The domain of the caller; the core checks the corners.
-pub(crate) fn domain(min: [f64; 2], max: [f64; 2], boundary: u32) -> Result<Domain, Failure> {
+pub(crate) fn domain<const D: usize>(min: [f64; D], max: [f64; D], boundary: u32) -> Result<Domain<D>, Failure> {
     let boundary = match boundary {
         AZULEJO_BOUNDARY_PERIODIC => Boundary::Periodic,
         AZULEJO_BOUNDARY_BOUNDED => Boundary::Bounded,

@@ -1,4 +1,4 @@
-//! azulejo: blue-noise sampling of planes and triangle meshes, and relaxation of point sets.
+//! azulejo: blue-noise sampling of planes, triangle meshes and volumes; relaxation of point sets.
 //!
 //! This header is generated from ffi/azulejo-c by cbindgen; do not edit it. It is C99. C++ programs
 //! may prefer azulejo.hpp, which wraps it.
@@ -37,13 +37,14 @@
 //!   fewer points of a cloud that exists           azulejo_thin
 //!   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax
 //!   a mesh whose vertices are the samples         azulejo_dcr_remesh
+//!   samples of a cuboid                           azulejo_volume_sample
 //!   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_mesh_coverage,
 //!                                                 azulejo_spectrum_create
 //!   the slow unbiased reference                   azulejo_maximal_sample
 //!
-//! azulejo/base.h has what all calls share; azulejo/kdrt.h, psp.h, dcr.h, thin.h and analysis.h have
-//! the calls, each with its options before it. Each can be included alone. The guide is
-//! docs/integrating.md, a table of all options docs/options.md.
+//! azulejo/base.h has what all calls share; azulejo/kdrt.h, psp.h, volume.h, dcr.h, thin.h and
+//! analysis.h have the calls, each with its options before it. Each can be included alone. The
+//! guide is docs/integrating.md, a table of all options docs/options.md.
 //!
 //! The following holds for every function; their texts state exceptions only.
 //!
@@ -186,6 +187,8 @@ pub mod psp_report;
 
 pub mod adaptive;
 pub mod mesh_density;
+
+pub mod volume;
 
 pub mod dcr;
 pub mod density;

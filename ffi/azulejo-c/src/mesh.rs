@@ -244,7 +244,7 @@ pub unsafe extern "C" fn azulejo_mesh_points(
                 rows::<f32, 2>("barycentrics", barycentrics, "count", count)?,
             )
         };
-        Ok(azulejo_points::surface(mesh.samples_at(triangles, barycentrics)?))
+        Ok(azulejo_points::space(mesh.samples_at(triangles, barycentrics)?))
     })
 }
 

@@ -250,6 +250,6 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
         if let Some(report) = report {
             report.write(done);
         }
-        Ok(azulejo_points::surface(set))
+        Ok(azulejo_points::space(set))
     })
 }

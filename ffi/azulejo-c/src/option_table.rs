@@ -16,6 +16,7 @@ use crate::psp::azulejo_psp_options_init;
 use crate::status::AZULEJO_OK;
 use crate::surface::azulejo_dcr_surface_options_init;
 use crate::thin::azulejo_thin_options_init;
+use crate::volume::azulejo_volume_options_init;
 
 /// The root of the repository, whichever package compiles this crate.
 fn root() -> &'static Path {
@@ -160,7 +161,8 @@ fn written(name: &str) -> Vec<u8> {
         "azulejo_psp_adaptive_options": azulejo_psp_adaptive_options_init,
         "azulejo_dcr_options": azulejo_dcr_options_init,
         "azulejo_dcr_surface_options": azulejo_dcr_surface_options_init,
-        "azulejo_thin_options": azulejo_thin_options_init
+        "azulejo_thin_options": azulejo_thin_options_init,
+        "azulejo_volume_options": azulejo_volume_options_init
     }
 }
 
@@ -201,8 +203,9 @@ fn numbers(text: &str) -> Vec<&str> {
 
 #[test]
 fn the_structs_of_the_header_have_these_options_defaults_and_ranges() {
-    let header: String =
-        ["base", "kdrt", "psp", "dcr", "thin"].map(|name| read(&format!("include/azulejo/{name}.h"))).concat();
+    let header: String = ["base", "kdrt", "psp", "volume", "dcr", "thin"]
+        .map(|name| read(&format!("include/azulejo/{name}.h")))
+        .concat();
     let mut structs = BTreeSet::new();
     for section in sections() {
         let [name] = section.names("C") else { panic!("{}: one struct", section.title) };

@@ -1,4 +1,4 @@
-//! Results: samples of the plane or of a mesh.
+//! Results: samples of the plane, of a mesh or of a cuboid.
 
 use azulejo_core::Points;
 
@@ -23,7 +23,7 @@ handle!(azulejo_points);
 
 pub(crate) enum Samples {
     Plane(Vec<[f32; 2]>),
-    Surface(Points<3>),
+    Space(Points<3>),
 }
 
 impl azulejo_points {
@@ -37,21 +37,22 @@ impl azulejo_points {
         Self { ranks, classes, ids, ..Self::of(Samples::Plane(positions)) }
     }
 
-    pub(crate) fn surface(mut samples: Points<3>) -> Self {
+    /// Samples of a mesh or of a cuboid, with all that they have.
+    pub(crate) fn space(mut samples: Points<3>) -> Self {
         let (ranks, classes) = (std::mem::take(&mut samples.ranks), std::mem::take(&mut samples.classes));
         let (radii, ids) = (std::mem::take(&mut samples.radii), std::mem::take(&mut samples.ids));
-        Self { ranks, classes, radii, ids, ..Self::of(Samples::Surface(samples)) }
+        Self { ranks, classes, radii, ids, ..Self::of(Samples::Space(samples)) }
     }
 }
 
-/// The samples of a handle, if they are those of a mesh.
+/// The samples of a handle, if they are those of a mesh or of a cuboid, where the arrays of meshes are empty.
 ///
 /// # Safety
 /// As [`handles::get`].
 unsafe fn surface<'a>(points: *const azulejo_points) -> Option<&'a Points<3>> {
     // SAFETY: handed on from the caller.
     match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
-        Some(Samples::Surface(samples)) => Some(samples),
+        Some(Samples::Space(samples)) => Some(samples),
         _ => None,
     }
 }
@@ -62,18 +63,18 @@ pub unsafe extern "C" fn azulejo_points_count(points: *const azulejo_points) -> 
     // SAFETY: handed on from the caller.
     match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Plane(samples)) => samples.len(),
-        Some(Samples::Surface(samples)) => samples.len(),
+        Some(Samples::Space(samples)) => samples.len(),
         None => 0,
     }
 }
 
-/// The number of coordinates of a position: 2 in the plane, 3 on a mesh; 0 for NULL.
+/// The number of coordinates of a position: 2 in the plane, 3 in space; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_dimension(points: *const azulejo_points) -> u32 {
     // SAFETY: handed on from the caller.
     match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Plane(_)) => 2,
-        Some(Samples::Surface(_)) => 3,
+        Some(Samples::Space(_)) => 3,
         None => 0,
     }
 }
@@ -85,7 +86,7 @@ pub unsafe extern "C" fn azulejo_points_positions(points: *const azulejo_points)
     // SAFETY: handed on from the caller.
     match unsafe { handles::peek("points", points) }.map(|points| &points.samples) {
         Some(Samples::Plane(samples)) => array(samples),
-        Some(Samples::Surface(samples)) => array(&samples.positions),
+        Some(Samples::Space(samples)) => array(&samples.positions),
         None => std::ptr::null(),
     }
 }

@@ -374,7 +374,7 @@ pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *
     handles::create(out, || {
         // SAFETY: handed on from the caller.
         let state = unsafe { handles::get("psp", psp) }?.state.try_read().map_err(|error| locked(&error))?;
-        Ok(azulejo_points::surface(state.samples()))
+        Ok(azulejo_points::space(state.samples()))
     })
 }
 
@@ -427,7 +427,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
         if let Some(report) = report {
             report.write(done);
         }
-        Ok(azulejo_points::surface(samples))
+        Ok(azulejo_points::space(samples))
     })
 }
 

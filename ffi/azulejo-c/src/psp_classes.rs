@@ -67,6 +67,6 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
         if let Some(report) = report {
             report.write(azulejo_classes_report::of(radii.count(), &samples.classes, start));
         }
-        Ok(azulejo_points::surface(samples))
+        Ok(azulejo_points::space(samples))
     })
 }

@@ -80,7 +80,7 @@ pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *con
     boundary::call(|| {
         // SAFETY: handed on from the caller.
         let (psp, points) = unsafe { (handles::get("psp", psp.cast_const())?, handles::get("points", points)?) };
-        let Samples::Surface(samples) = &points.samples else {
+        let Samples::Space(samples) = &points.samples else {
             return Err(Failure::invalid("points", "are samples of the plane"));
         };
         // The fields that are kept apart from the others.
@@ -216,13 +216,13 @@ pub unsafe extern "C" fn azulejo_psp_sample_region(
         if let Some(report) = report {
             report.write(done);
         }
-        Ok(azulejo_points::surface(samples))
+        Ok(azulejo_points::space(samples))
     })
 }
 
 /// Hands samples to the caller, if they are wanted.
 fn put(out: Option<Out<*mut azulejo_points>>, points: Points<3>) {
     if let Some(out) = out {
-        out.write(handles::make(azulejo_points::surface(points)));
+        out.write(handles::make(azulejo_points::space(points)));
     }
 }

@@ -163,7 +163,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
         if let Some(report) = report {
             report.write(done);
         }
-        Ok(azulejo_points::surface(relaxed))
+        Ok(azulejo_points::space(relaxed))
     })
 }
 

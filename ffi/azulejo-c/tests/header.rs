@@ -11,7 +11,7 @@ const COLUMNS: usize = 100;
 
 /// As many lines of comments as all headers may have, so that they can be read: what holds for many calls stands once, in
 /// azulejo.h, and derivations in docs/.
-const COMMENTS: usize = 1_200;
+const COMMENTS: usize = 1_260;
 
 /// A header below include/azulejo/.
 struct Header {
@@ -23,7 +23,7 @@ struct Header {
 }
 
 /// The headers, in the order in which azulejo.h includes them.
-const HEADERS: [Header; 6] = [
+const HEADERS: [Header; 7] = [
     Header {
         name: "base",
         page: "What all calls share: status codes, contexts, points, orders, classes and meshes.",
@@ -42,6 +42,7 @@ const HEADERS: [Header; 6] = [
         page: "PSP: maximal Poisson-disk sets on triangle meshes, also with a radius that varies.",
         sources: &["psp_report", "psp", "psp_classes", "psp_edit", "adaptive", "mesh_density"],
     },
+    Header { name: "volume", page: "Volumes: maximal Poisson-disk sets of cuboids.", sources: &["volume"] },
     Header {
         name: "dcr",
         page: "DCR: relaxation of point sets in the plane, with a density, and on meshes.",

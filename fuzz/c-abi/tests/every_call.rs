@@ -27,6 +27,7 @@ use azulejo_c::region::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
 use azulejo_c::thin::*;
+use azulejo_c::volume::*;
 use azulejo_c::version::{azulejo_has_embree, azulejo_version};
 
 /// A handle, which its own function frees when it is dropped.
@@ -232,6 +233,10 @@ fn planes() {
         let mut options = defaults(azulejo_maximal_options_init);
         options.radius = 0.5;
         read_and_free(made(|out| azulejo_maximal_sample(context.get(), &options, out, std::ptr::null_mut())));
+
+        let mut options = defaults(azulejo_volume_options_init);
+        options.radius = 0.7;
+        read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
 
         let mut options = defaults(azulejo_kdrt_merge_options_init);
         options.radius = 0.5;

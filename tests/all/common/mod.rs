@@ -17,6 +17,7 @@ pub mod surface_oracle;
 pub mod tiled;
 pub mod tolerance;
 pub mod triangle;
+pub mod volume_oracle;
 pub mod windows;
 
 use std::collections::HashMap;
@@ -60,7 +61,7 @@ pub fn check(domain: &Domain, radius: f64, samples: &[[f32; 2]]) {
 }
 
 /// The distance between neighbouring floats below the domain's largest coordinate.
-pub fn float_spacing(domain: &Domain) -> f64 {
+pub fn float_spacing<const D: usize>(domain: &Domain<D>) -> f64 {
     let largest = domain.min.iter().chain(&domain.max).fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let mut above = largest as f32;
     if f64::from(above) < largest {

@@ -1,0 +1,156 @@
+//! Filling a block: first darts, and the rounds that make its set maximal.
+//!
+//! Source: Ebeida et al. 2012, "A simple algorithm for maximal Poisson-disk sampling in high dimensions". Departures: a voxel
+//! is divided into 4 × 4 × 4 parts at once, of which a ball's cover is a mask of 64 bits; a round throws its darts before it
+//! divides; and voxels that are left at the end are searched for open lattice points in integers, so that none is left.
+
+use crate::plane::{Rect, Separation};
+use crate::points::MAXIMAL_DENSITY_IN_SPACE;
+use crate::rng::Rng;
+use crate::simd::{Lanes, Work};
+use crate::volume::grid::Grid;
+use crate::volume::search::{Centre, open_point};
+use crate::volume::voxels::{Level, Voxel};
+
+/// The first darts for each sample that will stand in the region: they bring three quarters of them.
+const FIRST_DARTS: f64 = 20.0;
+
+/// A region that is thinner than this, in radii, has as many samples as one of this thickness: those of a plane.
+const THIN: f64 = 0.95;
+
+/// The darts of a round for each voxel: from the first round on, the last for all others.
+const DARTS: [f64; 4] = [1.0, 1.0, 1.0, 2.0];
+
+/// The part of a fill that is done at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pass {
+    /// First darts, also around the block: those are its rivals at its border, and are dropped.
+    First,
+    /// The rounds, until the block is covered.
+    Last,
+}
+
+impl Pass {
+    /// The passes in their order.
+    pub const ALL: [Self; 2] = [Self::First, Self::Last];
+}
+
+/// One pass over a block. The result are the new samples in it.
+pub struct Fill<'a> {
+    /// Memory that is used again.
+    pub grid: &'a mut Grid,
+    pub pass: Pass,
+    pub block: Rect<3>,
+    /// The lattice points that darts fall on.
+    pub region: Rect<3>,
+    /// In lattice units.
+    pub radius: f64,
+    pub separation: Separation,
+    /// The samples that stand in the region and near it, with their images.
+    pub around: &'a [Centre],
+    /// The displacements of the images of a new sample that matter to the block.
+    pub images: &'a [[i32; 3]],
+    pub rng: Rng,
+}
+
+impl Work for Fill<'_> {
+    type Out = Vec<Centre>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) -> Vec<Centre> {
+        self.grid.reset(&self.region, self.radius, self.separation);
+        for &sample in self.around {
+            self.grid.add(lanes, sample);
+        }
+        let (levels, mut accepted) = (self.grid.levels(), Vec::new());
+        match self.pass {
+            Pass::First => self.throw_first(lanes, &levels[0], &mut accepted),
+            Pass::Last => self.close(lanes, &levels, &mut accepted),
+        }
+        accepted
+    }
+}
+
+impl Fill<'_> {
+    /// Throws darts on the whole region.
+    #[inline(always)]
+    fn throw_first<L: Lanes>(&mut self, lanes: L, cells: &Level, accepted: &mut Vec<Centre>) {
+        let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
+        let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
+        let (mut left, count) = ((FIRST_DARTS * expected).ceil() as u64, self.grid.cells() as u64);
+        while left > 0 {
+            let cell = self.rng.below(count);
+            self.throw(lanes, cells, Voxel::cell(cell as usize), accepted);
+            left -= 1;
+        }
+    }
+
+    /// Throws darts on open voxels and divides them, until none is open.
+    #[inline(always)]
+    fn close<L: Lanes>(&mut self, lanes: L, levels: &[Level], accepted: &mut Vec<Centre>) {
+        let mut open: Vec<Voxel> = (0..self.grid.cells()).map(Voxel::cell).collect();
+        let (mut parts, mut number) = (Vec::new(), 0);
+        loop {
+            let level = &levels[number];
+            // First darts have fallen on whole cells: the rounds begin with their parts.
+            if number > 0 {
+                let per_voxel = DARTS[(number - 1).min(DARTS.len() - 1)];
+                let mut left = (per_voxel * open.len() as f64).ceil() as u64;
+                while left > 0 {
+                    let voxel = open[self.rng.below(open.len() as u64) as usize];
+                    self.throw(lanes, level, voxel, accepted);
+                    left -= 1;
+                }
+            }
+            if level.is_last {
+                return self.search(lanes, level, &open, accepted);
+            }
+            parts.clear();
+            let mut index = 0;
+            while index < open.len() {
+                let mut bits = self.grid.open_parts(lanes, level, open[index]);
+                while bits != 0 {
+                    parts.push(level.part(open[index], bits.trailing_zeros()));
+                    bits &= bits - 1;
+                }
+                index += 1;
+            }
+            std::mem::swap(&mut open, &mut parts);
+            number += 1;
+        }
+    }
+
+    /// Puts samples on open lattice points of voxels, which are sorted by cell, until there are none.
+    fn search<L: Lanes>(&mut self, lanes: L, level: &Level, open: &[Voxel], accepted: &mut Vec<Centre>) {
+        for voxels in open.chunk_by(|a, b| a.cell == b.cell) {
+            let mut near = self.grid.balls_near(voxels[0].cell);
+            for &voxel in voxels {
+                let points = self.grid.points(level, voxel);
+                while let Some(point) = open_point(&points, &near, self.separation.threshold) {
+                    let known = self.grid.balls().len();
+                    self.accept(lanes, self.grid.absolute(point), accepted);
+                    near.extend(&self.grid.balls()[known..]);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn throw<L: Lanes>(&mut self, lanes: L, level: &Level, voxel: Voxel, accepted: &mut Vec<Centre>) {
+        let dart = self.grid.dart(level, voxel, self.rng.bits());
+        if let Some(sample) = self.grid.hit(lanes, &dart) {
+            self.accept(lanes, sample, accepted);
+        }
+    }
+
+    #[inline(always)]
+    fn accept<L: Lanes>(&mut self, lanes: L, sample: Centre, accepted: &mut Vec<Centre>) {
+        self.grid.add(lanes, sample);
+        for image in self.images {
+            self.grid.add(lanes, std::array::from_fn(|axis| sample[axis] + image[axis]));
+        }
+        if self.block.contains(sample) {
+            accepted.push(sample);
+        }
+    }
+}

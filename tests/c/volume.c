@@ -1,0 +1,121 @@
+/* Volumes: a box filled from C, its samples in pairs and against random places; the same for any number of threads; each bad
+   input is refused with a message that names it, leaving the output alone. */
+
+#include <math.h>
+
+#include "samples.h"
+
+#define INVALID AZULEJO_ERROR_INVALID_ARGUMENT
+
+static azulejo_context *one, *three;
+
+/* The distance of two places; on a torus of the nearest images. */
+static double distance(const azulejo_volume_options *o, const float *a, const double *b) {
+    double sum = 0;
+    int k;
+    for (k = 0; k < 3; k++) {
+        double d = fabs((double)a[k] - b[k]), period = o->domain_max[k] - o->domain_min[k];
+        if (o->boundary == AZULEJO_BOUNDARY_PERIODIC && d > period - d) d = period - d;
+        sum += d * d;
+    }
+    return sqrt(sum);
+}
+
+/* The distance of a place from the nearest of the samples from `first` on. */
+static double nearest(const azulejo_volume_options *o, const float *positions, size_t first, size_t count, const double *place) {
+    double least = INFINITY;
+    size_t i;
+    for (i = first; i < count; i++) least = fmin(least, distance(o, positions + 3 * i, place));
+    return least;
+}
+
+static double random_number(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) / 9007199254740992.0;
+}
+
+static void fills(uint32_t boundary) {
+    azulejo_volume_options o = volume_options(0.11);
+    azulejo_volume_report report;
+    azulejo_points *points = NULL, *again = NULL;
+    const float *positions;
+    uint64_t state = 1;
+    size_t i, count;
+    int k;
+    double farthest = 0, least = INFINITY;
+    ACCEPTED(azulejo_volume_report_init(&report, sizeof report));
+    o.boundary = boundary;
+    o.domain_min[0] = -0.5;
+    o.domain_max[1] = 1.25;
+    o.seed = 3;
+    if (!ACCEPTED(azulejo_volume_sample(one, &o, &points, &report))) return;
+    count = azulejo_points_count(points);
+    positions = azulejo_points_positions(points);
+    CHECK(azulejo_points_dimension(points) == 3 && azulejo_points_triangles(points) == NULL);
+    CHECK(azulejo_points_normals(points) == NULL && azulejo_points_ranks(points) == NULL);
+    CHECK(count > 900 && report.samples == count && report.radius == 0.11 && report.seconds > 0);
+    for (i = 0; i < count; i++) {
+        double place[3];
+        for (k = 0; k < 3; k++) {
+            place[k] = positions[3 * i + k];
+            CHECK(place[k] >= o.domain_min[k] && place[k] < o.domain_max[k]);
+        }
+        least = fmin(least, nearest(&o, positions, i + 1, count, place));
+    }
+    CHECK(least >= 0.11);
+    for (i = 0; i < 20000; i++) {
+        double place[3];
+        for (k = 0; k < 3; k++) place[k] = o.domain_min[k] + random_number(&state) * (o.domain_max[k] - o.domain_min[k]);
+        farthest = fmax(farthest, nearest(&o, positions, 0, count, place));
+    }
+    CHECK(farthest <= 0.11 + 3.5 / 8388608.0 && farthest > 0.1);
+    if (ACCEPTED(azulejo_volume_sample(three, &o, &again, NULL))) {
+        CHECK(azulejo_points_count(again) == count);
+        CHECK(memcmp(azulejo_points_positions(again), positions, 3 * count * sizeof *positions) == 0);
+    }
+    azulejo_points_free(again);
+    azulejo_points_free(points);
+}
+
+static void refused(void) {
+    const azulejo_volume_options good = volume_options(0.2);
+    azulejo_volume_options bad = good;
+    azulejo_points *out = UNTOUCHED;
+    REFUSED(INVALID, "context", azulejo_volume_sample(NULL, &good, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_volume_sample(one, NULL, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_volume_sample(one, &good, NULL, NULL));
+    bad.radius = NAN;
+    REFUSED(INVALID, "radius: NaN", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad.radius = 0;
+    REFUSED(INVALID, "radius: 0", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad.radius = 1e-4;
+    REFUSED(AZULEJO_ERROR_TOO_LARGE, "radius: 0.0001 asks for", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.boundary = 2;
+    REFUSED(INVALID, "boundary: 2 is no", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.domain_max[2] = 0;
+    REFUSED(INVALID, "domain_max: [2] is 0", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.domain_min[1] = -INFINITY;
+    REFUSED(INVALID, "domain_min: [1] is -inf", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.domain_min[0] = 1e7;
+    bad.domain_max[0] = 1e7 + 1;
+    REFUSED(INVALID, "radius: 0.2 is below 64.0", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.struct_size = 8;
+    REFUSED(INVALID, "struct_size", azulejo_volume_sample(one, &bad, &out, NULL));
+    CHECK(out == UNTOUCHED);
+}
+
+int main(void) {
+    one = make_context(1);
+    three = make_context(3);
+    fills(AZULEJO_BOUNDARY_PERIODIC);
+    fills(AZULEJO_BOUNDARY_BOUNDED);
+    refused();
+    azulejo_context_free(one);
+    azulejo_context_free(three);
+    return finish();
+}

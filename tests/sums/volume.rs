@@ -1,0 +1,29 @@
+//! Sets of cuboids.
+
+use azulejo::volume::{Options, sample};
+use azulejo::{Boundary, Context, Domain, Result};
+
+use crate::list::List;
+
+const fn cuboid(min: [f64; 3], max: [f64; 3], boundary: Boundary) -> Domain<3> {
+    Domain { min, max, boundary }
+}
+
+/// Cuboids of several blocks, of one, thin ones, and one far from the origin, where floats are coarse.
+const CUBOIDS: [(&str, Domain<3>, f64); 6] = [
+    ("volume torus", cuboid([0.0; 3], [1.0; 3], Boundary::Periodic), 0.02),
+    ("volume cube", cuboid([0.0; 3], [1.0; 3], Boundary::Bounded), 0.025),
+    ("volume small torus", cuboid([-0.5; 3], [0.5, 0.4, 0.7], Boundary::Periodic), 0.1),
+    ("volume slab", cuboid([0.0; 3], [2.0, 3.0, 0.01], Boundary::Periodic), 0.03),
+    ("volume bar", cuboid([0.25, -7.0, 0.0], [0.26, 7.0, 0.3], Boundary::Bounded), 0.05),
+    ("volume far", cuboid([1e5, -3e4, 0.5], [1e5 + 20.0, -3e4 + 9.5, 8.0], Boundary::Periodic), 0.7),
+];
+
+/// Adds the sums; those of small sets are the same calls with three times the radius.
+pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
+    for (seed, (name, domain, radius)) in (71..).zip(CUBOIDS) {
+        let radius = if is_small { 3.0 * radius } else { radius };
+        list.samples(name, &sample(context, &Options::new(radius).domain(domain).seed(seed), None)?);
+    }
+    Ok(())
+}
