@@ -164,7 +164,7 @@ pub fn pieces(
     let (mesh, relative) = (triangles.mesh, &field.at_scale(1.0));
     let (pieces, _) = Buckets::collect(job, triangles.chunks.len(), |chunk, add| {
         let mut slices = Vec::new();
-        let mut cuts = Cuts { mesh, field, quota, cubes: cubes.of_pieces(), add };
+        let mut cuts = Cuts { mesh, field, quota, cubes: cubes.of_pieces(field.scale()), add };
         for &Measured { triangle, area, longest, centre, bounds } in &*triangles.chunk(chunk, relative) {
             let bounds = bounds.times(field.scale());
             // One that is covered needs no cube: most are, by the samples of the level before.
