@@ -73,6 +73,7 @@ impl<'a> GradedGround<'a> {
     }
 
     /// A sample with its radius at the scale of the field.
+    #[inline(always)]
     fn graded(&self, &(sample, relative): &(Sample, f64)) -> GradedSample {
         let Sample { position, triangle, .. } = sample;
         GradedSample { position, radius: self.field.scale() * relative, normal: self.normal(triangle) }
@@ -136,6 +137,7 @@ impl<'a> GradedGround<'a> {
     }
 
     /// Those of some sixteenths of a fragment, given with its corners, that nothing certainly covers.
+    #[inline(always)]
     fn uncovered(
         &self,
         fragment: &Fragment,
@@ -220,11 +222,8 @@ impl Ground for GradedGround<'_> {
     }
 
     fn throw(&mut self, dart: (Sample, RadiusBounds)) {
-        if self.has_failed() {
-            return;
-        }
         self.darts += 1;
-        if let Some((sample, relative)) = self.settled(dart, |sample| self.rejects(sample)) {
+        if let Some((sample, relative)) = self.settled(&dart, |sample| self.rejects(sample)) {
             let rank = rounded_down(self.rank(&(sample, relative)));
             self.add(&(sample, relative));
             self.accepted.push((Sample { rank, ..sample }, relative));
@@ -250,6 +249,7 @@ impl Layer for GradedGround<'_> {
         self.grid.add(self.graded(sample));
     }
 
+    #[inline(always)]
     fn rejects(&self, sample: &(Sample, f64)) -> bool {
         self.grid.rejects(&self.graded(sample)) || self.obstacles.reject(sample.0.position)
     }
@@ -262,13 +262,19 @@ impl Layer for GradedGround<'_> {
         (scale * self.grid.ratio(&self.graded(sample)) * (1.0 - 1e-14)).min(largest).max(scale)
     }
 
+    #[inline(always)]
     fn least(&self, &(sample, bounds): &(Sample, RadiusBounds)) -> (Sample, f64) {
         (sample, bounds.least / self.field.scale())
     }
 
     /// A function is not called if every radius that it may give is rejected.
-    fn settled(&self, dart: (Sample, RadiusBounds), rejects: impl Fn(&(Sample, f64)) -> bool) -> Option<(Sample, f64)> {
-        let (least, (sample, bounds)) = (self.least(&dart), dart);
+    #[inline(always)]
+    fn settled(
+        &self,
+        dart: &(Sample, RadiusBounds),
+        rejects: impl Fn(&(Sample, f64)) -> bool,
+    ) -> Option<(Sample, f64)> {
+        let (least, &(sample, bounds)) = (self.least(dart), dart);
         if self.has_failed() || rejects(&least) {
             return None;
         }

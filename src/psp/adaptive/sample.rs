@@ -14,7 +14,7 @@ use crate::points::{Points, check_radius, check_resolution, finest_radius};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::field::{Quota, RadiusField};
 use crate::psp::adaptive::options::{Options, Radius, Scale};
-use crate::psp::adaptive::pieces::{MeasuredTriangles, checked_samples};
+use crate::psp::adaptive::pieces::{BYTES_PER_RANKED_SAMPLE, BYTES_PER_SAMPLE, MeasuredTriangles, checked_samples};
 use crate::psp::adaptive::site::{GradedSurface, OneKind, fill_octaves};
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
@@ -98,7 +98,8 @@ pub fn sample(
             let least = last * field.least();
             check_resolution("density", least, mesh.float_spacing(), "the largest coordinate of the mesh")?;
         }
-        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last), is_ordered)?;
+        let bytes = if is_ordered { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
+        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last), bytes)?;
         let triangles = if is_ordered {
             MeasuredTriangles::kept(&job.part(0.05, 0.06), mesh, &field)?
         } else {

@@ -16,6 +16,10 @@ use crate::psp::fill::{FillOptions, Kinds, Open};
 use crate::psp::set::Sample;
 use crate::rng::Rng;
 
+/// Peak memory for each sample that the classes would have alone; in progressive order.
+const BYTES_PER_SAMPLE: f64 = 265.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 500.0;
+
 /// A radius that classes have multiples of, as the caller gives it.
 pub struct VaryingRadius<'a> {
     mesh: &'a Mesh,
@@ -69,7 +73,8 @@ impl<'a> Varying<'a> {
     ) -> Result<Self> {
         // The radius of one class that has as many samples as all of them, each by itself.
         let density: f64 = (0..classes.count()).map(|class| 1.0 / square(classes.own(class))).sum();
-        let all = checked_samples(job, triangles.mesh, &field.at_scale(1.0 / density.sqrt()), is_ranked)?;
+        let bytes = if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
+        let all = checked_samples(job, triangles.mesh, &field.at_scale(1.0 / density.sqrt()), bytes)?;
         Ok(Self { field, triangles, estimate: all / density })
     }
 }
@@ -149,7 +154,7 @@ impl GradedSite for GradedGroup<'_> {
 
     fn ground(&self, cube: &CubeOfPieces, near: &[(Sample, f64)]) -> GradedClasses<'_> {
         let mut ground = ClassGround::new(self.group, |layer, radius| {
-            let largest_rank = self.group.largest_rank_in(radius);
+            let largest_rank = self.group.largest_rank_in(layer);
             GradedGround::new(&self.surface, cube, radius, self.group.obstacles(layer), largest_rank)
         });
         near.iter().for_each(|sample| ground.add(sample));

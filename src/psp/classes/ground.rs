@@ -174,7 +174,7 @@ impl<G: Layer<Sample: Ranked + Copy>> Ground for ClassGround<'_, G> {
 
     fn throw(&mut self, Classed { class, local: dart }: Classed<G::Dart>) {
         self.darts += 1;
-        if let Some(mut sample) = self.own(class).settled(dart, |sample| self.rejects(class, sample)) {
+        if let Some(mut sample) = self.own(class).settled(&dart, |sample| self.rejects(class, sample)) {
             let rank = self.rank(class, &sample);
             *sample.sample_mut() = Sample { rank, class, ..*sample.sample() };
             self.add(&sample);

@@ -5,7 +5,7 @@ use crate::job::Job;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::classes::ground::ClassGround;
-use crate::psp::classes::layers::Layers;
+use crate::psp::classes::layers::{Layer, Layers};
 use crate::psp::fill::{Block, FillOptions, Kinds, Measures, ONE_PIECE, Open, Site, Space, UniformGround, fill};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
@@ -93,9 +93,11 @@ impl<'a, U: Unit> Group<'a, U> {
         self.layers.largest().max(self.largest_rank.unwrap_or(0.0))
     }
 
-    /// The largest rank as a radius of a layer.
-    pub fn largest_rank_in(&self, radius_of_layer: f64) -> Option<f64> {
-        self.largest_rank.map(|rank| rank * (radius_of_layer / self.radius))
+    /// The largest rank as a radius of a layer. Without samples of the group it has no part in ranks.
+    pub fn largest_rank_in(&self, layer: usize) -> Option<f64> {
+        let Layer { radius, of, .. } = self.layers.all[layer];
+        let has_members = self.members.iter().any(|member| of >> member.class & 1 == 1);
+        self.largest_rank.filter(|_| has_members).map(|rank| rank * (radius / self.radius))
     }
 
     /// The given samples that are tested in a layer: in the own layers of classes.
@@ -185,7 +187,7 @@ impl Site for Group<'_, Constant<'_>> {
         ClassGround::new(self, |layer, radius| {
             let space = Space::new(mesh, radius * (1.0 + RADIUS_SLACK));
             let ground = UniformGround::new(mesh, space, extent, facing, self.obstacles(layer));
-            ground.ranked(self.largest_rank_in(radius))
+            ground.ranked(self.largest_rank_in(layer))
         })
     }
 

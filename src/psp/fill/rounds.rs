@@ -147,7 +147,7 @@ pub trait Layer: Ground {
     fn least(&self, dart: &Self::Dart) -> Self::Sample;
 
     /// The sample that a dart becomes, unless it is rejected.
-    fn settled(&self, dart: Self::Dart, rejects: impl Fn(&Self::Sample) -> bool) -> Option<Self::Sample>;
+    fn settled(&self, dart: &Self::Dart, rejects: impl Fn(&Self::Sample) -> bool) -> Option<Self::Sample>;
 
     /// False if no sample of the layer covers a sixteenth of a fragment of this length, in local radii.
     fn may_cover(&self, longest: f32) -> bool;

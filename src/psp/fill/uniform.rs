@@ -439,8 +439,8 @@ impl Layer for UniformGround<'_> {
         *dart
     }
 
-    fn settled(&self, dart: Sample, rejects: impl Fn(&Sample) -> bool) -> Option<Sample> {
-        (!rejects(&dart)).then_some(dart)
+    fn settled(&self, dart: &Sample, rejects: impl Fn(&Sample) -> bool) -> Option<Sample> {
+        (!rejects(dart)).then_some(*dart)
     }
 
     /// No ball contains a part longer than its diameter, and the longest edge of a sixteenth is a quarter.
