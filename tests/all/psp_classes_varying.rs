@@ -4,12 +4,13 @@
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::adaptive::{Density, Radius, Scale};
+use azulejo::psp::adaptive::{Density, Radius, Scale, Texture};
 use azulejo::psp::{self, ClassOptions};
 use azulejo::{Classes, Context, Error, Given, MAXIMAL_DENSITY, Order, Points};
 
 use crate::common::adaptive_oracle::{self as oracle, Ball, Field};
 use crate::common::meshes::{self, Soup};
+use crate::common::random::Random;
 use crate::common::triangle::{distance, exact};
 
 fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
@@ -318,6 +319,55 @@ fn a_ramp_of_density_is_met_in_every_band() {
         let expected = 0.77 * density((band as f64 + 0.5) * width) * width * f64::from(1.0 - 2.0 * margin);
         for of_class in &bands {
             assert!((of_class[band] / expected - 1.0).abs() < 0.04, "band {band}: {} of {expected}", of_class[band]);
+        }
+    }
+}
+
+/// A rectangle of the plane is a mesh of two triangles, and an image its density: random places are covered for each
+/// class, and all pairs keep their distances.
+#[test]
+fn a_rectangle_of_the_plane_follows_an_image() {
+    let mesh = mesh(meshes::plane());
+    let (values, width) = ([1.0f32, 4.0, 2.0, 9.0, 1.0, 3.0, 0.5, 2.0, 5.0], 3);
+    let pixel = |[x, y]: [usize; 2]| f64::from(values[y * width + x]);
+    // From the centre of the first pixel to that of the last.
+    let texture = [[1.0 / 6.0, 1.0 / 6.0], [5.0 / 6.0, 1.0 / 6.0], [5.0 / 6.0, 5.0 / 6.0], [1.0 / 6.0, 5.0 / 6.0]];
+    let (low, high) = mesh.bounds();
+    let at = |position: [f32; 3]| {
+        let place = [0, 1].map(|axis| 2.0 * f64::from((position[axis] - low[axis]) / (high[axis] - low[axis])));
+        let (cell, [s, t]) = (place.map(|x| x.min(1.0).floor() as usize), place);
+        let [s, t] = [s - cell[0] as f64, t - cell[1] as f64];
+        let row = |y: usize| (1.0 - s) * pixel([cell[0], y]) + s * pixel([cell[0] + 1, y]);
+        (1.0 - t) * row(cell[1]) + t * row(cell[1] + 1)
+    };
+    let places: Vec<[f32; 2]> = mesh
+        .positions()
+        .iter()
+        .map(|position| {
+            let corner = [0, 1].map(|axis| usize::from(position[axis] > (low[axis] + high[axis]) / 2.0));
+            texture[[[0, 1], [3, 2]][corner[1]][corner[0]]]
+        })
+        .collect();
+    let density = Density::Image { values: &values, width, height: 3, texture: Texture::PerVertex(&places) };
+    let (radius, none) = (0.1, Field::PerVertex(&[]));
+    let unit = Radius::Density { density, scale: Scale::Radius(radius) };
+    for own in [&[1.0, 1.0][..], &[3.0, 1.0, 2.0]] {
+        let classes = Classes::of_radii(own, 1.0).unwrap();
+        let case = Case::new(&mesh, &classes, &none, unit);
+        let set = case.sample_on(1).unwrap();
+        assert_eq!(set, case.sample_on(3).unwrap());
+        assert_eq!(case.conflict(&set), None);
+        let mut random = Random::new(5);
+        for _ in 0..3000 {
+            let place = [0, 1, 2].map(|axis| low[axis] + random.unit() * (high[axis] - low[axis]));
+            let local = radius / at(place).sqrt();
+            for class in 0..classes.count() {
+                let covers = |i: usize| {
+                    let within = classes.radius(class, set.classes[i] as usize) * ((local + set.radii[i]) / 2.0);
+                    distance(exact(place), exact(set.positions[i])) <= within + 1e-6
+                };
+                assert!((0..set.len()).any(covers), "{place:?} takes class {class}");
+            }
         }
     }
 }

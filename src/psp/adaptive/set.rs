@@ -118,11 +118,11 @@ impl AdaptiveSet {
         Self::in_order(cubes, order.into_iter().map(|(_, i)| samples[i]).collect())
     }
 
-    /// The samples that can matter in a cube: those whose ratio to one in the cube is below `stretch`, from 1 to
+    /// Visits the samples that can matter in a cube: those whose ratio to one in the cube is below `stretch`, from 1 to
     /// [`FARTHEST`].
-    pub fn samples_around(&self, cube: OctaveCube, stretch: f64) -> Vec<(Sample, f64)> {
+    pub fn each_around(&self, cube: OctaveCube, stretch: f64, mut visit: impl FnMut(&(Sample, f64))) {
         let OctaveCubes { origin, shift, scale, .. } = self.cubes;
-        let (mut near, end) = (Vec::new(), end_of_octave(cube.octave));
+        let end = end_of_octave(cube.octave);
         let low = origin + SIDE * end * (DVec3::from_array(cube.cube.0.map(f64::from)) - shift);
         // The points of the cube's pieces, widened by half of their radius.
         let margin = DVec3::splat((OVERHANG + stretch * HALF) * end);
@@ -130,12 +130,13 @@ impl AdaptiveSet {
         for octave in self.octaves() {
             let reach = DVec3::splat((OVERHANG + stretch * HALF) * end_of_octave(octave));
             let ends = [low - reach, high + reach].map(|corner| self.cubes.cube(octave, corner));
-            near.extend(self.in_range(octave, ends).filter(|(sample, relative)| {
-                let point = exact(sample.position);
-                (point - point.clamp(low, high)).length() <= stretch * 0.51 * (scale * relative)
-            }));
+            for sample in self.in_range(octave, ends) {
+                let (point, radius) = (exact(sample.0.position), scale * sample.1);
+                if (point - point.clamp(low, high)).length() <= stretch * 0.51 * radius {
+                    visit(sample);
+                }
+            }
         }
-        near
     }
 }
 

@@ -59,8 +59,11 @@ pub trait GradedSite: Kinds {
     /// True if all of it is certainly open before the fill.
     fn is_bare(&self) -> bool;
 
-    /// The surface in a cube, with the given samples and all others that may matter.
-    fn ground(&self, cube: &CubeOfPieces, near: &[(Sample, f64)]) -> Self::Ground<'_>;
+    /// The surface in a cube, with the samples that are given.
+    fn ground(&self, cube: &CubeOfPieces) -> Self::Ground<'_>;
+
+    /// Adds a sample that is there already.
+    fn add(ground: &mut Self::Ground<'_>, sample: &(Sample, f64));
 
     /// The values of a place to a kind.
     fn local<'a>(kind: Self::Kind, bounds: RadiusBounds) -> LocalOf<'a, Self>
@@ -96,7 +99,8 @@ pub fn fill_octaves<S: GradedSite>(
     let cubes: Vec<OctaveCube> = (0..pieces.len()).map(|number| pieces.key(number)).collect();
     let darts = set.grow(&job.part(0.2, 1.0), &cubes, |number, set| {
         let cube = CubeOfPieces::new(mesh, field, pieces.items(number).collect());
-        let mut ground = site.ground(&cube, &set.samples_around(cubes[number], stretch));
+        let mut ground = site.ground(&cube);
+        set.each_around(cubes[number], stretch, |sample| S::add(&mut ground, sample));
         let mut rng = Rng::at(options.seed, Draw::Adaptive, &cubes[number].key());
         // Without first darts no random point is asked for.
         let weighed = if options.throws_first { &cube.pieces[..] } else { &[] };
@@ -155,11 +159,13 @@ impl GradedSite for OneKind<'_> {
         self.obstacles.is_empty()
     }
 
-    fn ground(&self, cube: &CubeOfPieces, near: &[(Sample, f64)]) -> GradedGround<'_> {
+    fn ground(&self, cube: &CubeOfPieces) -> GradedGround<'_> {
         let scale = self.surface.field.scale();
-        let mut ground = GradedGround::new(&self.surface, cube, scale, self.obstacles, self.largest_rank);
-        near.iter().for_each(|sample| ground.add(sample));
-        ground
+        GradedGround::new(&self.surface, cube, scale, self.obstacles, self.largest_rank)
+    }
+
+    fn add(ground: &mut GradedGround, sample: &(Sample, f64)) {
+        ground.add(sample);
     }
 
     fn local<'b>((): (), bounds: RadiusBounds) -> RadiusBounds

@@ -18,7 +18,7 @@ use crate::rng::Rng;
 
 /// Peak memory for each sample that the classes would have alone; in progressive order.
 const BYTES_PER_SAMPLE: f64 = 265.0;
-const BYTES_PER_RANKED_SAMPLE: f64 = 500.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 850.0;
 
 /// A radius that classes have multiples of, as the caller gives it.
 pub struct VaryingRadius<'a> {
@@ -152,13 +152,15 @@ impl GradedSite for GradedGroup<'_> {
         false
     }
 
-    fn ground(&self, cube: &CubeOfPieces, near: &[(Sample, f64)]) -> GradedClasses<'_> {
-        let mut ground = ClassGround::new(self.group, |layer, radius| {
+    fn ground(&self, cube: &CubeOfPieces) -> GradedClasses<'_> {
+        ClassGround::new(self.group, |layer, radius| {
             let largest_rank = self.group.largest_rank_in(layer);
             GradedGround::new(&self.surface, cube, radius, self.group.obstacles(layer), largest_rank)
-        });
-        near.iter().for_each(|sample| ground.add(sample));
-        ground
+        })
+    }
+
+    fn add(ground: &mut GradedClasses, sample: &(Sample, f64)) {
+        ground.add(sample);
     }
 
     fn local<'b>(Classed { class, .. }: Classed, bounds: RadiusBounds) -> Classed<RadiusBounds>
