@@ -1774,11 +1774,10 @@ inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
     return detail::make(out, [&](auto **points) { return field.after(sample(c_options, points)); });
 }
 
-/// Samples of a mesh with a density; see azulejo_psp_adaptive_with_density.
-inline Status try_psp_adaptive_with_density(const Context &context, const Mesh &mesh,
-                                              const PspAdaptiveOptions &options,
-                                              const MeshDensity &density, Points &out,
-                                              PspReport *report = nullptr) {
+namespace detail {
+/// Hands a density of the C interface to a call, and tells what its function has thrown.
+template <typename Call>
+Status with_mesh_density(const MeshDensity &density, Points &out, const Call &call) {
     if (Status s = density.texture.check("texture"); !s.ok()) return s;
     if (!density.image.empty() &&
         (density.width == 0 || density.image.size() % density.width != 0)) {
@@ -1786,12 +1785,12 @@ inline Status try_psp_adaptive_with_density(const Context &context, const Mesh &
                       "image: " + std::to_string(density.image.size()) +
                           " numbers are not a multiple of " + std::to_string(density.width));
     }
-    detail::Field<3> field(density.function);
+    Field<3> field(density.function);
     azulejo_mesh_density wanted = {};
     if (Status s{azulejo_mesh_density_init(&wanted, sizeof wanted)}; !s.ok()) return s;
     wanted.vertex_values = density.vertex_values.data();
     wanted.vertex_count = density.vertex_values.size();
-    wanted.function = density.function ? &detail::Field<3>::call : nullptr;
+    wanted.function = density.function ? &Field<3>::call : nullptr;
     wanted.function_user = &field;
     wanted.at_vertices = density.at_vertices;
     wanted.largest = density.largest;
@@ -1804,9 +1803,31 @@ inline Status try_psp_adaptive_with_density(const Context &context, const Mesh &
     wanted.by_corners = density.by_corners;
     wanted.radius = density.radius;
     wanted.count = density.count;
-    return detail::make(out, [&](auto **points) {
-        return field.after(azulejo_psp_adaptive_with_density(
-            context.get(), mesh.get(), &options, &wanted, points, report));
+    return make(out, [&](auto **points) { return field.after(call(wanted, points)); });
+}
+} // namespace detail
+
+/// Samples of a mesh with a density; see azulejo_psp_adaptive_with_density.
+inline Status try_psp_adaptive_with_density(const Context &context, const Mesh &mesh,
+                                              const PspAdaptiveOptions &options,
+                                              const MeshDensity &density, Points &out,
+                                              PspReport *report = nullptr) {
+    return detail::with_mesh_density(density, out, [&](const auto &wanted, auto **points) {
+        return azulejo_psp_adaptive_with_density(context.get(), mesh.get(), &options, &wanted,
+                                                 points, report);
+    });
+}
+
+/// Samples of a mesh of several classes with a density; see azulejo_psp_classes_with_density.
+inline Status try_psp_classes_with_density(const Context &context, const Mesh &mesh,
+                                           const PspOptions &options, const Classes &classes,
+                                           const MeshDensity &density, Points &out,
+                                           ClassesReport *report = nullptr) {
+    return detail::with_classes(options, classes, [&](const azulejo_classes &of) {
+        return detail::with_mesh_density(density, out, [&](const auto &wanted, auto **points) {
+            return azulejo_psp_classes_with_density(context.get(), mesh.get(), &options, &of,
+                                                    &wanted, points, report);
+        });
     });
 }
 
@@ -2363,6 +2384,15 @@ inline Points psp_adaptive_with_density(const Context &context, const Mesh &mesh
                                           PspReport *report = nullptr) {
     Points points;
     check(try_psp_adaptive_with_density(context, mesh, options, density, points, report));
+    return points;
+}
+
+inline Points psp_classes_with_density(const Context &context, const Mesh &mesh,
+                                       const PspOptions &options, const Classes &classes,
+                                       const MeshDensity &density,
+                                       ClassesReport *report = nullptr) {
+    Points points;
+    check(try_psp_classes_with_density(context, mesh, options, classes, density, points, report));
     return points;
 }
 

@@ -170,7 +170,8 @@ const uint32_t *azulejo_points_triangles(const azulejo_points *points);
 /// the same manner.
 const float *azulejo_points_barycentrics(const azulejo_points *points);
 
-/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density.
+/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
+/// and the local radius of each of azulejo_psp_classes_with_density.
 const double *azulejo_points_radii(const azulejo_points *points);
 
 /// The ranks of the samples of a set in progressive order: for each sample the distance to the
@@ -235,7 +236,8 @@ typedef struct azulejo_classes {
     size_t mask_count; ///< That of the mesh's triangles, or 0, the default, for none.
 } azulejo_classes;
 
-/// The report of azulejo_kdrt_sample_classes and azulejo_psp_sample_classes.
+/// The report of azulejo_kdrt_sample_classes, azulejo_psp_sample_classes and
+/// azulejo_psp_classes_with_density.
 typedef struct azulejo_classes_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t classes; ///< The number of classes.

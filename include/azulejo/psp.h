@@ -438,6 +438,26 @@ azulejo_status azulejo_psp_adaptive_with_density(const azulejo_context *context,
                                                  azulejo_points **out,
                                                  azulejo_psp_report *report);
 
+/// Samples a mesh with several classes and a density: azulejo_psp_sample_classes, where the radii
+/// of the classes are multiples of a local radius, which the density gives as in
+/// azulejo_psp_adaptive_with_density. Two samples of classes i and j are at least r_ij times the
+/// mean of their local radii apart, and for each class every place is nearer than that to some
+/// sample. So all classes follow the density, with the shares that they have without one. Where it
+/// jumps, larger classes, which come first, leave fewer samples of smaller ones beside the jump.
+/// - options: as in azulejo_psp_sample_classes; given samples need clearances, which are lengths.
+///   In progressive order ranks, over the own radius of the class, are factors of all local radii.
+/// - density: with `radius` 1 the radii of the classes are those at density 1; a `count` is about
+///   that of a class of radius 1 by itself, in any order.
+/// - out: as of azulejo_psp_sample_classes, and with the local radii.
+/// - Errors: those of both calls.
+azulejo_status azulejo_psp_classes_with_density(const azulejo_context *context,
+                                                const azulejo_mesh *mesh,
+                                                const azulejo_psp_options *options,
+                                                const azulejo_classes *classes,
+                                                const azulejo_mesh_density *density,
+                                                azulejo_points **out,
+                                                azulejo_classes_report *report);
+
 #ifdef __cplusplus
 }
 #endif

@@ -84,10 +84,16 @@ pub trait Levelled {
 /// A sample with a rank.
 pub trait Ranked {
     fn sample(&self) -> &Sample;
+
+    fn sample_mut(&mut self) -> &mut Sample;
 }
 
 impl Ranked for Sample {
     fn sample(&self) -> &Sample {
+        self
+    }
+
+    fn sample_mut(&mut self) -> &mut Sample {
         self
     }
 }

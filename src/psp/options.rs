@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::order::Order;
 pub use crate::order::{DEFAULT_QUOTIENT, check_quotient};
+use crate::psp::adaptive::Radius;
 use crate::setters::setters;
 use crate::trace::HAS_EMBREE;
 
@@ -267,7 +268,7 @@ pub(super) enum Request<'a> {
 }
 
 /// The options of [`sample_classes`](super::sample_classes).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct ClassOptions<'a> {
     /// Selects one of 2^64 sets.
@@ -281,12 +282,25 @@ pub struct ClassOptions<'a> {
     pub order: Order,
     /// As in [`Options::quotient`].
     pub quotient: f64,
+    /// What the radii of the classes are multiples of, where that varies over the surface: by a density, for example.
+    /// Two samples keep the mean of their units. [`Scale::Count`](crate::psp::adaptive::Scale::Count) is about the
+    /// number of samples that a class of radius 1 would have alone. Given samples then need clearances. `None`, the
+    /// default: 1 everywhere.
+    pub unit: Option<Radius<'a>>,
 }
 
 impl Default for ClassOptions<'_> {
     fn default() -> Self {
-        Self { seed: 0, given: Given::default(), cosine: -1.0, order: Order::Any, quotient: DEFAULT_QUOTIENT }
+        let (given, order) = (Given::default(), Order::Any);
+        Self { seed: 0, given, cosine: -1.0, order, quotient: DEFAULT_QUOTIENT, unit: None }
     }
 }
 
-setters!(ClassOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64, order: Order, quotient: f64 });
+setters!(ClassOptions<'a> {
+    seed: u64,
+    given: Given<'a, 3>,
+    cosine: f64,
+    order: Order,
+    quotient: f64,
+    unit: Option<Radius<'a>>,
+});

@@ -11,8 +11,6 @@ use proptest::prelude::*;
 use crate::common::adaptive_oracle as oracle;
 use crate::common::adaptive_oracle::Field;
 use crate::common::meshes::{self, Soup};
-use crate::common::tolerance;
-use crate::common::triangle::distance;
 
 fn mesh((positions, triangles): Soup) -> Mesh {
     Mesh::new(positions, triangles).unwrap()
@@ -21,25 +19,6 @@ fn mesh((positions, triangles): Soup) -> Mesh {
 /// A radius for each vertex, by its position.
 fn radii(mesh: &Mesh, radius: impl Fn([f64; 3]) -> f64) -> Vec<f32> {
     mesh.positions().iter().map(|position| radius(position.map(f64::from)) as f32).collect()
-}
-
-/// The documented tolerance of a maximal set: the field changes over it.
-fn tolerance(mesh: &Mesh, field: &Field) -> f64 {
-    let way = tolerance::tolerance(mesh);
-    let radii = match field {
-        Field::PerVertex(radii) => radii,
-        Field::Function(_, slope) => return way * (1.0 + slope),
-    };
-    let of_triangle = |triangle: u32| {
-        let corners = mesh.corners(triangle).map(|corner| corner.map(f64::from));
-        let side = |i: usize, j: usize| distance(corners[i], corners[j]);
-        let height = 2.0 * mesh.triangle_area(triangle) / side(0, 1).max(side(1, 2)).max(side(2, 0));
-        let [a, b, c] = mesh.triangles()[triangle as usize].map(|vertex| f64::from(radii[vertex as usize]));
-        let change = a.max(b).max(c) - a.min(b).min(c);
-        way * (1.0 + change / height) + change * 2f64.powi(-22)
-    };
-    let triangles = (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0);
-    triangles.map(of_triangle).fold(0.0, f64::max)
 }
 
 fn sample(mesh: &Mesh, options: &Options) -> Points<3> {
@@ -54,7 +33,7 @@ fn check_all(mesh: &Mesh, options: &Options, field: &Field) -> Points<3> {
     assert_eq!(set, again, "depends on the number of threads");
     assert_eq!(oracle::wrong_radius(mesh, field, samples, radii), None);
     assert_eq!(oracle::conflict(samples, radii, options.cosine), None);
-    assert_eq!(oracle::gap(mesh, field, samples, radii, options.cosine, tolerance(mesh, field)), None);
+    assert_eq!(oracle::gap(mesh, field, samples, radii, options.cosine, oracle::tolerance(mesh, field, 1.0)), None);
     let Report { samples: count, accepted, darts, conflicts, iterations, rays, .. } = report;
     assert_eq!((count, accepted, darts), (samples.len() as u64, count, accepted + conflicts));
     assert_eq!((iterations, rays), (0, 0));
@@ -333,7 +312,7 @@ fn the_checkers_see_what_is_wrong() {
             bad.positions.remove(removed);
             bad.normals.remove(removed);
             bad.radii.remove(removed);
-            let gap = oracle::gap(&wall, &field, &bad, &bad.radii, cosine, tolerance(&wall, &field));
+            let gap = oracle::gap(&wall, &field, &bad, &bad.radii, cosine, oracle::tolerance(&wall, &field, 1.0));
             assert!(gap.is_some(), "sample {removed} is missing");
         }
         let mut bad = good.clone();

@@ -112,6 +112,7 @@ fn check_cover(mesh: &Mesh, set: &Points<3>, report: &Report, quotient: f64, fie
                 let values: Vec<f32> = values.iter().map(|&value| (within * f64::from(value)) as f32).collect();
                 oracle::gap(mesh, &Field::PerVertex(&values), &first, &scaled, cosine, WITHIN)
             }
+            Field::DensityPerVertex(_) => unreachable!("densities are probed"),
         };
         assert_eq!(gap, None, "the first {count} do not cover within {within}");
     }

@@ -78,6 +78,7 @@ static PIECE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
 static MESH: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::fine_torus(60, 30)));
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
 static CLASSES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.06, 0.03], 1.0).unwrap());
+static MULTIPLES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[1.0, 0.5], 1.0).unwrap());
 /// Samples of the mesh.
 static ON_MESH: LazyLock<Points<3>> =
     LazyLock::new(|| psp::sample(&Context::new(1).unwrap(), &MESH, &psp::Options::new(0.08), None).unwrap().0);
@@ -395,6 +396,14 @@ const SURFACE: &[Call] = &[
         })],
     },
     Call {
+        name: "psp::classes::sample_classes",
+        reports: 10,
+        run: |c, p| samples(psp::sample_classes(c, &MESH, &multiples_of(&RADII), &MULTIPLES, None, p)),
+        refused: &[("vertex_count: ", |c, p| {
+            samples(psp::sample_classes(c, &MESH, &multiples_of(&[0.1; 4]), &MULTIPLES, None, p))
+        })],
+    },
+    Call {
         name: "psp::adaptive::sample",
         reports: 10,
         run: |c, p| samples(adaptive::sample(c, &MESH, &by_vertex(&RADII), p)),
@@ -413,6 +422,10 @@ const SURFACE: &[Call] = &[
 
 fn rasterised() -> ProjectionOptions<'static> {
     ProjectionOptions::new(0.05).engine(psp::Engine::Rasteriser)
+}
+
+fn multiples_of(radii: &[f32]) -> ClassOptions<'_> {
+    ClassOptions::default().unit(Some(adaptive::Radius::PerVertex(radii)))
 }
 
 fn by_vertex(radii: &[f32]) -> adaptive::Options<'_> {

@@ -50,6 +50,7 @@ mod plane_order;
 mod psp;
 mod psp_bias;
 mod psp_classes;
+mod psp_classes_varying;
 mod psp_count;
 mod psp_large;
 mod psp_places;

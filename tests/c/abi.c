@@ -413,6 +413,10 @@ static void signatures(void) {
     azulejo_status (*psp_sample_classes)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                          const azulejo_classes *, azulejo_points **, azulejo_classes_report *) =
         azulejo_psp_sample_classes;
+    azulejo_status (*psp_classes_with_density)(const azulejo_context *, const azulejo_mesh *,
+                                               const azulejo_psp_options *, const azulejo_classes *,
+                                               const azulejo_mesh_density *, azulejo_points **,
+                                               azulejo_classes_report *) = azulejo_psp_classes_with_density;
     azulejo_status (*psp_adaptive_sample)(const azulejo_context *, const azulejo_mesh *,
                                           const azulejo_psp_adaptive_options *, azulejo_points **, azulejo_psp_report *) =
         azulejo_psp_adaptive_sample;
@@ -453,7 +457,7 @@ static void signatures(void) {
     const char *(*status_name)(azulejo_status) = azulejo_status_name;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
-    CHECK(psp_points && psp_sample && psp_sample_classes && dcr_relax && dcr_relax_classes && last_error_message && kdrt_sample_window && kdrt_stream);
+    CHECK(psp_points && psp_sample && psp_sample_classes && psp_classes_with_density && dcr_relax && dcr_relax_classes && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);

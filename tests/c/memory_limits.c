@@ -254,6 +254,30 @@ static azulejo_status mesh_classes_progressive(const azulejo_context *context, s
     return mesh_of_classes(context, count, AZULEJO_ORDER_PROGRESSIVE);
 }
 
+/* Two classes that follow a density, the smaller one by itself with as many samples. */
+static azulejo_status classes_of_density(const azulejo_context *context, size_t count, uint32_t order) {
+    const double own[2] = {2, 1};
+    double radii[4];
+    const azulejo_classes of = classes_of(radii, 2, own);
+    azulejo_psp_options o = psp_options(0);
+    azulejo_mesh_density density;
+    azulejo_points *points = NULL;
+    ACCEPTED(azulejo_mesh_density_init(&density, sizeof density));
+    density.vertex_values = weights;
+    density.vertex_count = COUNT_OF(weights);
+    density.count = (double)count;
+    o.order = order;
+    return freed(azulejo_psp_classes_with_density(context, sheet, &o, &of, &density, &points, NULL), points);
+}
+
+static azulejo_status mesh_classes_density(const azulejo_context *context, size_t count) {
+    return classes_of_density(context, count, AZULEJO_ORDER_ANY);
+}
+
+static azulejo_status mesh_classes_density_progressive(const azulejo_context *context, size_t count) {
+    return classes_of_density(context, count, AZULEJO_ORDER_PROGRESSIVE);
+}
+
 static azulejo_status of_handle(const azulejo_context *context, size_t count) {
     const azulejo_psp_options o = cube_options(count);
     azulejo_psp *psp = NULL;
@@ -502,6 +526,8 @@ static const struct {
     {"mesh, many given samples", mesh_around_many, 600000, MOST_ASKED},
     {"mesh, 2 classes", mesh_classes, 600000, MOST_ASKED},
     {"mesh, 2 classes, progressive", mesh_classes_progressive, 200000, MOST_ASKED_UNEVENLY},
+    {"mesh, 2 classes, density", mesh_classes_density, 300000, MOST_ASKED_UNEVENLY},
+    {"mesh, 2 classes, density, progressive", mesh_classes_density_progressive, 200000, MOST_ASKED_UNEVENLY},
     {"mesh, handle", of_handle, 600000, MOST_ASKED},
     {"mesh, edited", edited, 300000, MOST_ASKED},
     {"mesh, region", in_region, 400000, MOST_ASKED},

@@ -106,6 +106,22 @@ static azulejo_status classes_of_mesh(void *report) {
     return status;
 }
 
+static azulejo_status classes_with_density(void *report) {
+    static const float values[8] = {1, 1, 1, 1, 2, 2, 2, 2};
+    const azulejo_psp_options o = psp_options(0);
+    const azulejo_classes two = two_classes();
+    azulejo_mesh_density density;
+    azulejo_points *out = NULL;
+    ACCEPTED(azulejo_mesh_density_init(&density, sizeof density));
+    density.vertex_values = values;
+    density.vertex_count = 8;
+    density.radius = 1;
+    const azulejo_status status = azulejo_psp_classes_with_density(context, cube, &o, &two, &density, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
 static azulejo_status merge(void *report) {
     const azulejo_kdrt_merge_options o = merge_options(0.1);
     azulejo_points *out = NULL;
@@ -246,6 +262,7 @@ static const entry entries[] = {
     {thin, REPORT(thin, 16, seconds), offsetof(azulejo_thin_report, seconds), sizeof(azulejo_thin_report), 1},
     {classes_of_plane, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {classes_of_mesh, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
+    {classes_with_density, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {merge, REPORT(kdrt_merge, 16, inserted), 0, 0, 1},
     {psp, REPORT(psp, 16, covering_radius), PSP_TIMES, 1},
     {adaptive, REPORT(psp, 16, covering_radius), PSP_TIMES, 1},

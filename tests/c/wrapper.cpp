@@ -167,6 +167,19 @@ void several_classes() {
     of_classes.set_given(one, {clearances.data(), 1});
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "given_clearances: there are 1 for each sample, and 2 classes",
                  [&] { azulejo::psp_sample_classes(context, mesh, of_classes, classes); }));
+    azulejo::MeshDensity density;
+    density.function = [](const std::array<double, 3> &) { return 1.0; };
+    density.at_vertices = true;
+    density.radius = 1;
+    const auto even = azulejo::psp_classes_with_density(context, mesh, {}, classes, density);
+    CHECK(even.size() > 0 && even.classes().size() == even.size() && even.radii()[0] == 1);
+    density.function = [](const std::array<double, 3> &) -> double { throw std::runtime_error("no density"); };
+    try {
+        azulejo::psp_classes_with_density(context, mesh, {}, classes, density);
+        CHECK(false);
+    } catch (const std::runtime_error &error) {
+        CHECK(std::string(error.what()) == "no density");
+    }
     classes.radii.pop_back();
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radii: 3 for 2",
                  [&] { azulejo::psp_sample_classes(context, mesh, {}, classes); }));

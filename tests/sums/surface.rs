@@ -26,6 +26,7 @@ pub fn sums(context: &Context, list: &mut List) -> Result<Surface> {
     let maximal = uniform(context, &closed, &open, list)?;
     ordered(context, &closed, &open, list)?;
     in_classes(context, &closed, &maximal, list)?;
+    in_varying_classes(context, &closed, list)?;
     adaptive(context, &closed, &open, list)?;
     with_density(context, &open, list)?;
     deformed(&closed, &maximal, list)?;
@@ -100,6 +101,24 @@ fn in_classes(context: &Context, closed: &Arc<Mesh>, maximal: &Points<3>, list: 
     let of_classes: Vec<f64> = clearances.iter().flat_map(|&clearance| [clearance, 0.0, 0.5 * clearance]).collect();
     sample("classes, given", options.given(Given::with_clearances(&positions, &of_classes)).cosine(0.3), None)?;
     sample("classes, given, of their radii", options.given(Given::at(&positions)), Some(&masks))
+}
+
+/// Sets of three classes whose radii vary, by a density and by vertex, in any order and in progressive order.
+fn in_varying_classes(context: &Context, closed: &Arc<Mesh>, list: &mut List) -> Result<()> {
+    let classes = Classes::of_radii(&[1.0, 2.0, 1.0], 1.0)?;
+    let masks: Vec<u32> = (0..closed.triangles().len() as u32).map(|i| if i % 9 < 5 { 7 } else { i % 8 }).collect();
+    let weights: Vec<f32> = closed.positions().iter().map(|[x, _, z]| (x + 0.5 * z).max(0.0)).collect();
+    let radii: Vec<f32> = closed.positions().iter().map(|[x, ..]| 0.03 + 0.03 * (x + 1.4)).collect();
+    let density = Radius::Density { density: Density::PerVertex(&weights), scale: Scale::Count(2000.0) };
+    for (name, unit, order) in [
+        ("classes, density", density, Order::Any),
+        ("classes, radii of vertices", Radius::PerVertex(&radii), Order::Any),
+        ("classes, radii of vertices, ordered", Radius::PerVertex(&radii), Order::Progressive),
+    ] {
+        let options = ClassOptions::default().seed(48).order(order).unit(Some(unit));
+        list.samples(name, &psp::sample_classes(context, closed, &options, &classes, Some(&masks), None)?.0);
+    }
+    Ok(())
 }
 
 /// Samples that go with the triangles of a mesh whose vertices move.

@@ -90,7 +90,8 @@ impl azulejo_classes {
     }
 }
 
-/// The report of azulejo_kdrt_sample_classes and azulejo_psp_sample_classes.
+/// The report of azulejo_kdrt_sample_classes, azulejo_psp_sample_classes and
+/// azulejo_psp_classes_with_density.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_classes_report {

@@ -6,11 +6,14 @@ use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
 
 use crate::adaptive::azulejo_psp_adaptive_options;
 use crate::boundary::{Out, check_pointer, check_reserved, check_unused, flag, rows};
+use crate::classes::{azulejo_classes, azulejo_classes_report};
 use crate::context::azulejo_context;
 use crate::growing::{self, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
 use crate::points::azulejo_points;
+use crate::psp::azulejo_psp_options;
+use crate::psp_classes::ClassCall;
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
@@ -251,5 +254,43 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
             report.write(done);
         }
         Ok(azulejo_points::space(set))
+    })
+}
+
+/// Samples a mesh with several classes and a density: azulejo_psp_sample_classes, where the radii
+/// of the classes are multiples of a local radius, which the density gives as in
+/// azulejo_psp_adaptive_with_density. Two samples of classes i and j are at least r_ij times the
+/// mean of their local radii apart, and for each class every place is nearer than that to some
+/// sample. So all classes follow the density, with the shares that they have without one. Where it
+/// jumps, larger classes, which come first, leave fewer samples of smaller ones beside the jump.
+///
+/// options: as in azulejo_psp_sample_classes; given samples need clearances, which are lengths. In
+/// progressive order ranks, over the own radius of the class, are factors of all local radii.
+///
+/// density: with `radius` 1 the radii of the classes are those at density 1; a `count` is about
+/// that of a class of radius 1 by itself, in any order.
+///
+/// out: as of azulejo_psp_sample_classes, and with the local radii.
+///
+/// Errors: those of both calls.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_psp_classes_with_density(
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
+    options: *const azulejo_psp_options,
+    classes: *const azulejo_classes,
+    density: *const azulejo_mesh_density,
+    out: *mut *mut azulejo_points,
+    report: *mut azulejo_classes_report,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let call = unsafe { ClassCall::read(context, mesh, options, classes, report) }?;
+        // SAFETY: likewise.
+        let density: azulejo_mesh_density = unsafe { growing::read("density", density) }?;
+        // SAFETY: likewise.
+        unsafe { density.with(|unit| call.sample(Some(unit))) }
     })
 }

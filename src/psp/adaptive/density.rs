@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::job::{Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::points::MAXIMAL_DENSITY;
-use crate::psp::adaptive::options::{Density, DensityFunction, Scale, Texture};
+use crate::psp::adaptive::options::{Density, DensityFunction, Radius, Scale, Texture};
 use crate::psp::fragment::{Fragment, Shape, slice};
 
 /// Triangles per task of the integral.
@@ -33,6 +33,14 @@ enum Of<'a> {
 }
 
 impl<'a> DensityField<'a> {
+    /// The density that a radius follows from, if it does, and the meaning of a density of 1.
+    pub fn of(mesh: &'a Mesh, radius: Radius<'a>) -> Result<Option<(Self, Scale)>> {
+        match radius {
+            Radius::Density { density, scale } => Ok(Some((Self::new(mesh, density)?, scale))),
+            Radius::PerVertex(_) | Radius::Function { .. } => Ok(None),
+        }
+    }
+
     /// Checks the density of the caller.
     pub fn new(mesh: &'a Mesh, density: Density<'a>) -> Result<Self> {
         let (of, largest) = match density {

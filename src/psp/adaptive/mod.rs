@@ -21,6 +21,7 @@
 mod density;
 mod field;
 mod grid;
+mod ground;
 mod options;
 mod pieces;
 mod sample;
@@ -29,3 +30,12 @@ mod site;
 
 pub use options::{Density, DensityFunction, Options, Radius, RadiusFunction, Scale, Texture};
 pub use sample::sample;
+
+// Classes whose radii vary are filled by the same parts (`psp/classes/graded.rs`).
+pub(crate) use density::DensityField;
+pub(crate) use field::{Quota, RadiusBounds, RadiusField};
+pub(crate) use ground::GradedGround;
+pub(crate) use pieces::{MeasuredTriangles, checked_samples};
+pub(crate) use sample::checked_count;
+pub(crate) use set::FARTHEST;
+pub(crate) use site::{CubeOfPieces, GradedSite, GradedSurface, fill_octaves};

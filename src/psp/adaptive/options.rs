@@ -1,8 +1,7 @@
 //! The options of sets whose radius varies: the radius, or the density that it follows from, and the rest.
 
 use crate::given::Given;
-use crate::order::Order;
-use crate::psp::options::DEFAULT_QUOTIENT;
+use crate::order::{DEFAULT_QUOTIENT, Order};
 use crate::setters::setters;
 
 /// The options of [`sample`](super::sample).

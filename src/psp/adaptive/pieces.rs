@@ -164,7 +164,7 @@ pub fn pieces(
     let (mesh, relative) = (triangles.mesh, &field.at_scale(1.0));
     let (pieces, _) = Buckets::collect(job, triangles.chunks.len(), |chunk, add| {
         let mut slices = Vec::new();
-        let mut cuts = Cuts { mesh, field, quota, cubes: cubes.of_pieces(), add };
+        let mut cuts = Cuts { mesh, field, quota, cubes: cubes.of_pieces(field.scale()), add };
         for &Measured { triangle, area, longest, centre, bounds } in &*triangles.chunk(chunk, relative) {
             let bounds = bounds.times(field.scale());
             // One that is covered needs no cube: most are, by the samples of the level before.
@@ -232,14 +232,14 @@ const ESTIMATE_CHUNK: usize = 1 << 13;
 const ESTIMATES: f64 = 1e5;
 /// Peak memory per sample, where triangles are cut into pieces smaller than the radius; in progressive order; and per
 /// triangle.
-const BYTES_PER_SAMPLE: f64 = 265.0;
-const BYTES_PER_RANKED_SAMPLE: f64 = 390.0;
+pub const BYTES_PER_SAMPLE: f64 = 265.0;
+pub const BYTES_PER_RANKED_SAMPLE: f64 = 390.0;
 const BYTES_PER_TRIANGLE: f64 = 60.0;
 
 /// Estimates the number of samples and refuses radii that require more than can be indexed or held. They are counted on
 /// pieces of the surface, each as if it had the radius of its centre: those of the area, and those along parts longer
 /// than the radius. For the memory a part has its share, by area, of those along its triangle.
-pub fn checked_samples(job: &Job, mesh: &Mesh, field: &RadiusField, is_ranked: bool) -> Result<f64> {
+pub fn checked_samples(job: &Job, mesh: &Mesh, field: &RadiusField, bytes_per_sample: f64) -> Result<f64> {
     // Needles have almost no area: their lengths bound the pieces as well.
     let lengths: f64 = mesh.sampled_triangles().map(|triangle| longest_edge(mesh, triangle)).sum();
     // Pieces that are shorter than every radius add no information, either.
@@ -271,8 +271,7 @@ pub fn checked_samples(job: &Job, mesh: &Mesh, field: &RadiusField, is_ranked: b
     let (argument, all) = (field.argument(), field.all());
     let asking = format!("{:?} to {:?} asks for", all.least, all.largest);
     // What triangles take is told as that of more samples.
-    let each = if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
-    let bytes = held * each + mesh.triangles().len() as f64 * BYTES_PER_TRIANGLE;
+    let bytes = held * bytes_per_sample + mesh.triangles().len() as f64 * BYTES_PER_TRIANGLE;
     require_samples(estimate, bytes / estimate.max(1.0), argument, &asking)?;
     Ok(estimate)
 }

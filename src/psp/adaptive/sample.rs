@@ -9,18 +9,17 @@ use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 use crate::math::square;
 use crate::mesh::Mesh;
-use crate::order::Order;
+use crate::order::{Order, check_quotient};
 use crate::points::{Points, check_radius, check_resolution, finest_radius};
 use crate::psp::adaptive::density::DensityField;
 use crate::psp::adaptive::field::{Quota, RadiusField};
 use crate::psp::adaptive::options::{Options, Radius, Scale};
-use crate::psp::adaptive::pieces::{MeasuredTriangles, checked_samples};
-use crate::psp::adaptive::site::GradedSurface;
+use crate::psp::adaptive::pieces::{BYTES_PER_RANKED_SAMPLE, BYTES_PER_SAMPLE, MeasuredTriangles, checked_samples};
+use crate::psp::adaptive::site::{GradedSurface, OneKind, fill_octaves};
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
 use crate::psp::given::{Obstacles, require_clearances};
 use crate::psp::levels::{self, Levelled, LevelledSet, Levels, Ranked, top};
-use crate::psp::options::check_quotient;
 use crate::psp::report::Report;
 use crate::psp::set::Sample;
 
@@ -66,11 +65,11 @@ pub fn sample(
     if is_ordered {
         check_quotient(options.quotient)?;
     }
-    let (mut density, mut count) = (None, None);
-    if let Radius::Density { density: source, scale } = options.radius {
+    let mut count = None;
+    if let Radius::Density { scale, .. } = options.radius {
         count = checked_count(scale, options.order)?;
-        density = Some((DensityField::new(mesh, source)?, scale));
     }
+    let density = DensityField::of(mesh, options.radius)?;
     let stated = match density {
         Some(_) => None,
         None => Some(RadiusField::new(mesh, options.radius, None, 1.0)?),
@@ -99,7 +98,8 @@ pub fn sample(
             let least = last * field.least();
             check_resolution("density", least, mesh.float_spacing(), "the largest coordinate of the mesh")?;
         }
-        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last), is_ordered)?;
+        let bytes = if is_ordered { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
+        let estimate = checked_samples(&job.part(0.02, 0.05), mesh, &field.at_scale(last), bytes)?;
         let triangles = if is_ordered {
             MeasuredTriangles::kept(&job.part(0.05, 0.06), mesh, &field)?
         } else {
@@ -125,7 +125,7 @@ pub fn sample(
 }
 
 /// The count that is requested in progressive order, which must be whole. Refuses a scale out of its range.
-fn checked_count(scale: Scale, order: Order) -> Result<Option<usize>> {
+pub fn checked_count(scale: Scale, order: Order) -> Result<Option<usize>> {
     match scale {
         Scale::Radius(radius) => check_radius(radius).map(|()| None),
         Scale::Count(count) if !(count > 0.0 && count.is_finite()) => {
@@ -156,6 +156,10 @@ impl Ranked for (Sample, f64) {
     fn sample(&self) -> &Sample {
         &self.0
     }
+
+    fn sample_mut(&mut self) -> &mut Sample {
+        &mut self.0
+    }
 }
 
 impl Levelled for ScaledSurface<'_> {
@@ -182,8 +186,9 @@ impl Levelled for ScaledSurface<'_> {
     ) -> Result<(Vec<Self::Sample>, u64)> {
         let &Self { mesh, facing, obstacles, ref triangles, last, estimate, .. } = self;
         let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
-        let surface = GradedSurface { mesh, field, quota, facing, obstacles, triangles, finest: last };
-        let (set, darts) = surface.fill(job, options, samples)?;
+        let surface = GradedSurface { mesh, field, quota, facing, triangles, finest: last };
+        let site = OneKind { surface, obstacles, largest_rank: options.largest_rank };
+        let (set, darts) = fill_octaves(job, &site, options, samples)?;
         Ok((set.into_samples(), darts))
     }
 }

@@ -13,9 +13,7 @@ use glam::DVec3;
 
 use crate::math::{exp2, scalbn};
 use crate::mesh::{Mesh, exact};
-use crate::psp::adaptive::grid::GradedSample;
 use crate::psp::adaptive::pieces::LONGEST;
-use crate::psp::fragment::Facing;
 use crate::psp::set::{Cube, Cubes, Growing, OctaveCube, Sample};
 use crate::rng::{Draw, Rng};
 
@@ -27,6 +25,11 @@ const OVERHANG: f64 = 2.0 / 3.0 * LONGEST;
 /// Half of the radius of a sample, in the same unit, and some more: rounding can take it above the radii of its piece
 /// by at most a quarter of these (see `field.rs`).
 const HALF: f64 = 0.64;
+
+/// The largest multiple of the distance of conflicts at which samples of other cubes may matter: samples accepted in one
+/// cube and in the next of its colour are farther apart than that.
+pub const FARTHEST: f64 = 6.0;
+const _: () = assert!(SIDE - 2.0 * OVERHANG > 2.0 * HALF * FARTHEST);
 
 /// The octave of a radius: it is in `2^octave .. 2^(octave + 1)`.
 fn octave(radius: f64) -> i32 {
@@ -55,15 +58,17 @@ impl OctaveCubes {
         Cube(place.floor().as_ivec3().to_array())
     }
 
-    /// The cubes of pieces of the surface.
-    pub fn of_pieces(&self) -> CubesOfPieces<'_> {
-        CubesOfPieces { cubes: self, last: None }
+    /// The cubes of pieces of the surface that have their radii at a scale.
+    pub fn of_pieces(&self, scale: f64) -> CubesOfPieces<'_> {
+        CubesOfPieces { cubes: self, share: self.scale / scale, last: None }
     }
 }
 
 /// The cubes of pieces of the surface, one after the other: most of them share the limit of the piece before.
 pub struct CubesOfPieces<'a> {
     cubes: &'a OctaveCubes,
+    /// The scale of the cubes over that of the pieces.
+    share: f64,
     /// A cube that pieces of the octave below may be in, and the least radius of those that are.
     last: Option<(OctaveCube, f64)>,
 }
@@ -72,6 +77,7 @@ impl CubesOfPieces<'_> {
     /// The cube of a piece: in the octave of its radius or, if that is above a limit that is random for each cube, in
     /// the next larger one. Thus no seam follows a line of constant radius.
     pub fn cube(&mut self, centre: DVec3, radius: f64) -> OctaveCube {
+        let radius = self.share * radius;
         let own = octave(radius);
         let above = OctaveCube { octave: own + 1, cube: self.cubes.cube(own + 1, centre) };
         let (_, limit) = match self.last {
@@ -112,10 +118,11 @@ impl AdaptiveSet {
         Self::in_order(cubes, order.into_iter().map(|(_, i)| samples[i]).collect())
     }
 
-    /// The samples that can matter in a cube: those whose ratio to one in the cube is below `stretch`, from 1 to 2.
-    pub fn samples_around(&self, mesh: &Mesh, facing: Facing, cube: OctaveCube, stretch: f64) -> Vec<GradedSample> {
+    /// Visits the samples that can matter in a cube: those whose ratio to one in the cube is below `stretch`, from 1 to
+    /// [`FARTHEST`].
+    pub fn each_around(&self, cube: OctaveCube, stretch: f64, mut visit: impl FnMut(&(Sample, f64))) {
         let OctaveCubes { origin, shift, scale, .. } = self.cubes;
-        let (mut near, end) = (Vec::new(), end_of_octave(cube.octave));
+        let end = end_of_octave(cube.octave);
         let low = origin + SIDE * end * (DVec3::from_array(cube.cube.0.map(f64::from)) - shift);
         // The points of the cube's pieces, widened by half of their radius.
         let margin = DVec3::splat((OVERHANG + stretch * HALF) * end);
@@ -123,15 +130,13 @@ impl AdaptiveSet {
         for octave in self.octaves() {
             let reach = DVec3::splat((OVERHANG + stretch * HALF) * end_of_octave(octave));
             let ends = [low - reach, high + reach].map(|corner| self.cubes.cube(octave, corner));
-            for &(sample, radius) in self.in_range(octave, ends) {
-                let (point, radius) = (exact(sample.position), scale * radius);
+            for sample in self.in_range(octave, ends) {
+                let (point, radius) = (exact(sample.0.position), scale * sample.1);
                 if (point - point.clamp(low, high)).length() <= stretch * 0.51 * radius {
-                    let normal = facing.normal(mesh, sample.triangle);
-                    near.push(GradedSample { position: sample.position, radius, normal });
+                    visit(sample);
                 }
             }
         }
-        near
     }
 }
 

@@ -5,40 +5,72 @@ use crate::error::Result;
 use crate::job::Job;
 use crate::order::Order;
 use crate::psp::classes::layers::Layers;
-use crate::psp::classes::site::{Group, Places};
+use crate::psp::classes::site::{Classed, Group, Places, Unit};
 use crate::psp::fill::FillOptions;
-use crate::psp::levels::{Levelled, Levels, by_radius, top};
+use crate::psp::levels::{Levelled, Levels, Ranked, by_radius, top};
 use crate::psp::options::{ClassOptions, check_quotient};
-use crate::psp::set::Sample;
+use crate::rng::{Draw, hash};
+
+/// Samples for all classes, group by group, and the number of darts. Groups of larger own radii come first.
+pub fn sample_groups<U: Unit>(
+    job: &Job,
+    places: Places,
+    classes: &Classes,
+    unit: U,
+    options: &ClassOptions,
+) -> Result<(Vec<U::Sample>, u64)> {
+    let groups = classes.groups();
+    let groups: Vec<_> =
+        groups.iter().map(|members| GroupLevels { places, classes, members, unit, earlier: &[] }).collect();
+    let expected: f64 = groups.iter().map(GroupLevels::expected_samples).sum();
+    let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
+    for (number, group) in (0..).zip(groups) {
+        let next = (done + group.expected_samples() / expected.max(1.0)).min(1.0);
+        let (job, seed) = (&job.part(done, next), hash(options.seed, Draw::Group, &[number]));
+        let thrown;
+        (samples, thrown) = GroupLevels { earlier: &samples, ..group }.complete(job, options, seed)?;
+        darts += thrown;
+        done = next;
+    }
+    // Stable: within a class they keep the order of the fill, or that by rank.
+    samples.sort_by_key(|sample| sample.sample().class);
+    Ok((samples, darts))
+}
+
+/// An upper estimate of the samples of all classes.
+pub fn expected_samples(places: Places, classes: &Classes, unit: impl Unit) -> f64 {
+    (0..classes.count()).map(|class| unit.expected_samples(places.mesh, classes.own(class))).sum()
+}
 
 /// The levels of a group: its own radius, and the radii between its classes, are multiplied by one number. Those to
 /// earlier classes stay.
-pub struct GroupLevels<'a> {
-    pub places: Places<'a>,
-    pub classes: &'a Classes,
-    pub members: &'a [usize],
+struct GroupLevels<'a, U: Unit> {
+    places: Places<'a>,
+    classes: &'a Classes,
+    members: &'a [usize],
+    unit: U,
     /// The samples of earlier classes.
-    pub earlier: &'a [Sample],
+    earlier: &'a [U::Sample],
 }
 
-impl GroupLevels<'_> {
+impl<U: Unit> GroupLevels<'_, U> {
     /// The own radius.
     fn own(&self) -> f64 {
         self.classes.own(self.members[0])
     }
 
     /// An upper estimate of the samples.
-    pub fn expected_samples(&self) -> f64 {
+    fn expected_samples(&self) -> f64 {
         self.at(self.own(), None).expected_samples()
     }
 
     /// The samples of earlier classes, and behind them those of the group; and the number of darts.
-    pub fn complete(self, job: &Job, options: &ClassOptions, seed: u64) -> Result<(Vec<Sample>, u64)> {
+    fn complete(self, job: &Job, options: &ClassOptions, seed: u64) -> Result<(Vec<U::Sample>, u64)> {
         let (own, earlier) = (self.own(), self.earlier);
         match options.order {
             Order::Any => {
                 let fill = FillOptions { measures: false, ..FillOptions::from_nothing(seed) };
-                self.at(own, None).fill(job, earlier.to_vec(), fill)
+                U::fill(&self.at(own, None), job, earlier.to_vec(), fill)
             }
             Order::Progressive => {
                 let set = by_radius(job, Levels::new(self, seed), options.quotient, own)?;
@@ -48,11 +80,13 @@ impl GroupLevels<'_> {
     }
 
     /// The group at another own radius.
-    fn at(&self, radius: f64, largest_rank: Option<f64>) -> Group<'_> {
+    fn at(&self, radius: f64, largest_rank: Option<f64>) -> Group<'_, U> {
         Group {
             places: self.places,
-            members: self.members.iter().map(|&class| class as u8).collect(),
+            unit: self.unit,
+            members: self.members.iter().map(|&class| Classed { class: class as u8, local: () }).collect(),
             radius,
+            finest: self.own(),
             layers: Layers::new(self.classes, self.members, radius / self.own()),
             largest_rank,
         }
@@ -67,11 +101,11 @@ pub fn is_ranked(options: &ClassOptions) -> Result<bool> {
     }
 }
 
-impl Levelled for GroupLevels<'_> {
-    type Sample = Sample;
+impl<U: Unit> Levelled for GroupLevels<'_, U> {
+    type Sample = U::Sample;
 
     fn top(&self) -> f64 {
-        top(self.places.mesh)
+        top(self.places.mesh) / self.unit.least()
     }
 
     fn expected(&self, radius: f64) -> f64 {
@@ -82,10 +116,16 @@ impl Levelled for GroupLevels<'_> {
         !self.earlier.is_empty()
     }
 
-    fn fill(&self, job: &Job, options: FillOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
+    fn fill(
+        &self,
+        job: &Job,
+        options: FillOptions,
+        radius: f64,
+        samples: &[U::Sample],
+    ) -> Result<(Vec<U::Sample>, u64)> {
         let group = self.at(radius, options.largest_rank);
-        let (mut samples, darts) = group.fill(job, [self.earlier, samples].concat(), options)?;
-        samples.retain(|sample| group.members.contains(&sample.class));
+        let (mut samples, darts) = U::fill(&group, job, [self.earlier, samples].concat(), options)?;
+        samples.retain(|sample| self.members.contains(&usize::from(sample.sample().class)));
         Ok((samples, darts))
     }
 }

@@ -5,6 +5,8 @@
 //! groups, with the cross radii as clearances (`site.rs`, `layers.rs`). Within a group darts of all classes are thrown
 //! at equal rates.
 
+mod graded;
+mod ground;
 mod layers;
 mod levels;
 mod site;
@@ -18,15 +20,15 @@ use crate::host::Stopwatch;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
 use crate::points::{Points, check_resolution};
-use crate::psp::classes::levels::{GroupLevels, is_ranked};
-use crate::psp::classes::site::Places;
+use crate::psp::adaptive::MeasuredTriangles;
+use crate::psp::classes::graded::{Varying, VaryingRadius};
+use crate::psp::classes::levels::{expected_samples, is_ranked, sample_groups};
+use crate::psp::classes::site::{Constant, Places, class_samples};
 use crate::psp::fill::{Measures, require_samples};
 use crate::psp::fragment::Facing;
-use crate::psp::given::Obstacles;
+use crate::psp::given::{Obstacles, require_clearances};
 use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
-use crate::psp::set::surface_samples;
-use crate::rng::{Draw, hash};
 
 /// Peak memory for each sample that the classes would have alone; in progressive order.
 const BYTES_PER_SAMPLE: f64 = 105.0;
@@ -59,16 +61,25 @@ const BYTES_PER_RANKED_SAMPLE: f64 = 620.0;
 /// larger, as in [`sample`](super::sample). So each class can be thinned independently, and classes have about the
 /// shares that they have in any order.
 ///
+/// With a [unit](ClassOptions::unit) s that varies over the surface the radii of the matrix are multiples of it: samples
+/// a and b of classes i and j are at least `radius(i, j) * (s(a) + s(b)) / 2` apart, and for each class i every place x
+/// is within `radius(i, j) * (s(x) + s(b)) / 2` of a sample b of some class j, up to the tolerance of
+/// [`adaptive::sample`](super::adaptive::sample) with these radii. [`Points::radii`] gives s at each sample. So classes
+/// have the shares that they have with constant radii, and all of them follow the density that s stands for. What is
+/// said of radii and ranks above holds with these means for units of length. At jumps of s samples of larger classes on
+/// the sparse side, which come first, leave fewer of the smaller ones on the other.
+///
 /// The set is always maximal. In the [`Report`] the radius is the smallest own radius, and `rho`, which is for one
 /// class, is 0.
 ///
 /// Time: with Wei's radii and two classes about twice that of [`sample`](super::sample) per sample, with eight classes
-/// four times; all triangles are visited once per class.
+/// four times, and likewise with a unit beside [`adaptive::sample`](super::adaptive::sample); all triangles are visited once per class.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for `radii` above 0 below 64 float spacings at the largest coordinate of the mesh,
 /// `masks` that are not one for each triangle (`mask_count`), a `cosine` outside -1 to 1, and `given` samples out of
-/// range. [`Error::TooLarge`] if the radii would require more than 2^32 samples, or more than memory holds.
+/// range. With a unit also what [`adaptive::sample`](super::adaptive::sample) refuses of a radius, where the smallest of
+/// the matrix above 0 counts. [`Error::TooLarge`] if the radii would require more than 2^32 samples, or more than memory holds.
 /// [`Error::Cancelled`] by the progress callback: nothing is returned.
 pub fn sample_classes(
     context: &Context,
@@ -80,42 +91,39 @@ pub fn sample_classes(
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     check_masks(mesh, masks)?;
-    check_radii(mesh, classes)?;
+    if options.unit.is_none() {
+        check_radii(mesh, classes)?;
+    }
     let is_ranked = is_ranked(options)?;
     let facing = Facing::new(options.cosine)?;
     let given = obstacles_of_classes(mesh, options.given, classes)?;
-    let measures = &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))?;
-    let none = &Obstacles::default();
-    let places = Places { mesh, measures, masks, given: &given, none, facing };
-    let groups = classes.groups();
-    let groups: Vec<_> = groups.iter().map(|members| GroupLevels { places, classes, members, earlier: &[] }).collect();
-    let expected: f64 = groups.iter().map(GroupLevels::expected_samples).sum();
-    let bytes = if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
-    require_samples(expected, bytes, "radii", "they ask for")?;
-    let (mut samples, darts) = context.run(progress, |job| {
-        let (mut samples, mut darts, mut done) = (Vec::new(), 0, 0.0);
-        for (number, group) in (0..).zip(groups) {
-            let next = (done + group.expected_samples() / expected.max(1.0)).min(1.0);
-            let (job, seed) = (&job.part(done, next), hash(options.seed, Draw::Group, &[number]));
-            let thrown;
-            (samples, thrown) = GroupLevels { earlier: &samples, ..group }.complete(job, options, seed)?;
-            darts += thrown;
-            done = next;
+    let places = Places { mesh, masks, given: &given, none: &Obstacles::default(), facing };
+    let (set, darts) = match options.unit {
+        None => {
+            let unit = Constant { measures: &*mesh.kept(|| Ok(()), || Ok(Measures::of(mesh)))? };
+            let bytes = if is_ranked { BYTES_PER_RANKED_SAMPLE } else { BYTES_PER_SAMPLE };
+            require_samples(expected_samples(places, classes, unit), bytes, "radii", "they ask for")?;
+            let (samples, darts) = context.run(progress, |job| sample_groups(job, places, classes, unit, options))?;
+            (class_samples(mesh, &samples, is_ranked), darts)
         }
-        Ok((samples, darts))
-    })?;
-    // Stable: within a class they keep the order of the fill, or that by rank.
-    samples.sort_by_key(|sample| sample.class);
+        Some(radius) => {
+            require_clearances(options.given, "are required where the radius varies")?;
+            let radius = VaryingRadius::new(mesh, radius, classes)?;
+            let (samples, darts) = context.run(progress, |job| {
+                let field = &radius.field(&job.part(0.0, 0.02))?;
+                let triangles = &MeasuredTriangles::of(mesh);
+                let unit = Varying::new(&job.part(0.02, 0.05), field, triangles, classes, is_ranked)?;
+                sample_groups(&job.part(0.05, 1.0), places, classes, unit, options)
+            })?;
+            let radii = samples.iter().map(|&(_, radius)| radius).collect();
+            (Points { radii, ..class_samples(mesh, &samples, is_ranked) }, darts)
+        }
+    };
     let report = Report {
         uncovered_after: Some(0.0),
         radius: (0..classes.count()).map(|class| classes.own(class)).fold(f64::INFINITY, f64::min),
-        ..Report::of_fill(samples.len(), darts, &stopwatch)
+        ..Report::of_fill(set.len(), darts, &stopwatch)
     };
-    let mut set = surface_samples(mesh, samples.iter());
-    set.classes = samples.iter().map(|sample| sample.class.into()).collect();
-    if is_ranked {
-        set.ranks = samples.iter().map(|sample| sample.rank).collect();
-    }
     Ok((set, report))
 }
 

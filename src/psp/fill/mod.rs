@@ -34,7 +34,7 @@ pub use measures::{
 };
 pub use page::{BEYOND, GROUP, Group, LANES};
 pub use pages::Pages;
-pub use rounds::{Ground, Open, PATCH, Patch, Point, TOLERANCE, WHOLE, Whole, throw};
+pub use rounds::{Ground, Layer, Open, PATCH, Patch, Point, TOLERANCE, WHOLE, Whole, throw};
 pub use space::{Place, Space};
 pub use uniform::{Surface, Uniform, UniformGround};
 
@@ -193,11 +193,22 @@ pub fn fill_zone<Z: Zone>(
     Ok(open_area)
 }
 
-/// A surface to be filled with samples of constant radii: of one kind, or of several classes.
-pub trait Site: Sync {
-    /// A kind of samples: a class, or nothing where all are alike.
+/// The kinds of samples that grow together on a surface: one, or the classes of a group.
+pub trait Kinds: Sync {
+    /// A class, or nothing where all samples are alike.
     type Kind: Copy + Send + Sync;
-    type Ground<'a>: Ground<Local = Self::Kind, Dart = Sample, Sample = Sample> + Sync
+
+    fn kinds(&self) -> &[Self::Kind];
+
+    fn random_kind(&self, rng: &mut Rng) -> Self::Kind;
+
+    /// True if samples of a kind may stand on a triangle.
+    fn allows(&self, kind: Self::Kind, triangle: u32) -> bool;
+}
+
+/// A surface to be filled with samples of constant radii, the same for all kinds.
+pub trait Site: Kinds {
+    type Ground<'a>: Ground<Local = Self::Kind, Sample = Sample> + Sync
     where
         Self: 'a;
     /// True if samples of other cubes count when the open share of a cube is measured.
@@ -209,14 +220,6 @@ pub trait Site: Sync {
 
     /// True if all of it is certainly open.
     fn is_bare(&self) -> bool;
-
-    /// The kinds that are filled together, with one radius.
-    fn kinds(&self) -> &[Self::Kind];
-
-    fn random_kind(&self, rng: &mut Rng) -> Self::Kind;
-
-    /// True if samples of a kind may stand on a triangle.
-    fn allows(&self, kind: Self::Kind, triangle: u32) -> bool;
 
     /// Random numbers for the first darts of a kind on a chunk of the triangles.
     fn chunk_rng(&self, seed: u64, chunk: usize, kind: Self::Kind) -> Rng;

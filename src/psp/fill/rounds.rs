@@ -128,6 +128,31 @@ pub trait Ground {
     fn into_accepted(self) -> (Vec<Self::Sample>, u64);
 }
 
+/// A ground that may be one of several *layers*: the samples of some classes with balls of one radius, or of radii that
+/// are those of one field times a factor (`psp/classes/layers.rs`).
+pub trait Layer: Ground {
+    /// The radius, or the factor of the field.
+    fn radius(&self) -> f64;
+
+    /// Adds a sample that is there already.
+    fn add(&mut self, sample: &Self::Sample);
+
+    /// True if a sample conflicts with one of the layer, or with a given one.
+    fn rejects(&self, sample: &Self::Sample) -> bool;
+
+    /// The rank of a sample that is added now, before it is rounded down to a float. Infinite if there are no ranks.
+    fn rank(&self, sample: &Self::Sample) -> f64;
+
+    /// The sample of the least radius that a dart can become.
+    fn least(&self, dart: &Self::Dart) -> Self::Sample;
+
+    /// The sample that a dart becomes, unless it is rejected.
+    fn settled(&self, dart: &Self::Dart, rejects: impl Fn(&Self::Sample) -> bool) -> Option<Self::Sample>;
+
+    /// False if no sample of the layer covers a sixteenth of a fragment of this length, in local radii.
+    fn may_cover(&self, longest: f32) -> bool;
+}
+
 /// The parts of a surface that may be uncovered.
 pub struct Open<L = ()> {
     pub wholes: Vec<Whole<L>>,

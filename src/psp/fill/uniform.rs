@@ -12,9 +12,9 @@ use crate::psp::fill::extent::Extent;
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::measures::{Ball, Measures, Triangles};
 use crate::psp::fill::page::{GROUP, Group};
-use crate::psp::fill::rounds::{Ground, Open, PATCH, Patch, Point, WHOLE, Whole};
+use crate::psp::fill::rounds::{Ground, Layer, Open, PATCH, Patch, Point, WHOLE, Whole};
 use crate::psp::fill::space::Space;
-use crate::psp::fill::{FillOptions, Filled, ONE_PIECE, Site, fill};
+use crate::psp::fill::{FillOptions, Filled, Kinds, ONE_PIECE, Site, fill};
 use crate::psp::fragment::{Facing, Fragment, NO_NORMAL, SIXTEENTHS, slice};
 use crate::psp::given::{GivenSamples, Obstacles};
 use crate::psp::set::{Sample, SampleSet};
@@ -67,8 +67,21 @@ impl Uniform<'_> {
     }
 }
 
-impl Site for Uniform<'_> {
+impl Kinds for Uniform<'_> {
     type Kind = ();
+
+    fn kinds(&self) -> &[()] {
+        &[()]
+    }
+
+    fn random_kind(&self, _: &mut Rng) {}
+
+    fn allows(&self, (): (), _: u32) -> bool {
+        true
+    }
+}
+
+impl Site for Uniform<'_> {
     type Ground<'b>
         = UniformGround<'b>
     where
@@ -85,16 +98,6 @@ impl Site for Uniform<'_> {
 
     fn is_bare(&self) -> bool {
         self.surface.given.is_empty()
-    }
-
-    fn kinds(&self) -> &[()] {
-        &[()]
-    }
-
-    fn random_kind(&self, _: &mut Rng) {}
-
-    fn allows(&self, (): (), _: u32) -> bool {
-        true
     }
 
     fn chunk_rng(&self, seed: u64, chunk: usize, (): ()) -> Rng {
@@ -187,34 +190,9 @@ impl<'a> UniformGround<'a> {
         Self { largest_rank: largest.map(|rank| rank * f64::from(self.grid.space.scale())), ..self }
     }
 
-    /// The rank of a sample that is added now, before it is rounded down to a float: its distance to the nearest one,
-    /// but no more than the largest rank. It does not exceed the distance in whatever order a caller evaluates that.
-    pub fn rank(&self, sample: &Sample) -> f64 {
-        let Some(largest) = self.largest_rank else { return f64::INFINITY };
-        let (place, normal) = (self.grid.space.place(sample.position), self.normal(sample.triangle));
-        let distance = self.grid.distance(place, normal, largest) * (1.0 - 1e-14);
-        distance.max(self.grid.space.radius()) / f64::from(self.grid.space.scale())
-    }
-
-    /// The radius, in the unit of the mesh.
-    pub fn radius(&self) -> f64 {
-        self.grid.space.radius() / f64::from(self.grid.space.scale())
-    }
-
-    /// Adds a sample that is there already.
-    pub fn add(&mut self, sample: &Sample) {
-        self.grid.add(self.grid.space.place(sample.position), self.normal(sample.triangle));
-    }
-
     /// Adds a given sample that has the clearance of a sample of the set.
     pub fn add_given(&mut self, position: [f32; 3]) {
         self.grid.add(self.grid.space.place(position), NO_NORMAL);
-    }
-
-    /// True if a dart conflicts with a sample.
-    pub fn rejects(&self, dart: &Sample) -> bool {
-        self.grid.rejects(self.grid.space.place(dart.position), self.normal(dart.triangle))
-            || self.obstacles.reject(dart.position)
     }
 
     /// True if one sample certainly covers a ball, and so all that lies in it.
@@ -430,6 +408,44 @@ impl Ground for UniformGround<'_> {
 
     fn into_accepted(self) -> (Vec<Sample>, u64) {
         (self.accepted, self.darts)
+    }
+}
+
+impl Layer for UniformGround<'_> {
+    /// The radius, in the unit of the mesh.
+    fn radius(&self) -> f64 {
+        self.grid.space.radius() / f64::from(self.grid.space.scale())
+    }
+
+    fn add(&mut self, sample: &Sample) {
+        self.grid.add(self.grid.space.place(sample.position), self.normal(sample.triangle));
+    }
+
+    fn rejects(&self, sample: &Sample) -> bool {
+        self.grid.rejects(self.grid.space.place(sample.position), self.normal(sample.triangle))
+            || self.obstacles.reject(sample.position)
+    }
+
+    /// The distance to the nearest sample, but no more than the largest rank. It does not exceed the distance in
+    /// whatever order a caller evaluates that.
+    fn rank(&self, sample: &Sample) -> f64 {
+        let Some(largest) = self.largest_rank else { return f64::INFINITY };
+        let (place, normal) = (self.grid.space.place(sample.position), self.normal(sample.triangle));
+        let distance = self.grid.distance(place, normal, largest) * (1.0 - 1e-14);
+        distance.max(self.grid.space.radius()) / f64::from(self.grid.space.scale())
+    }
+
+    fn least(&self, dart: &Sample) -> Sample {
+        *dart
+    }
+
+    fn settled(&self, dart: &Sample, rejects: impl Fn(&Sample) -> bool) -> Option<Sample> {
+        (!rejects(dart)).then_some(*dart)
+    }
+
+    /// No ball contains a part longer than its diameter, and the longest edge of a sixteenth is a quarter.
+    fn may_cover(&self, longest: f32) -> bool {
+        longest <= 8.01
     }
 }
 

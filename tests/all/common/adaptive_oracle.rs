@@ -6,6 +6,7 @@ use azulejo::mesh::Mesh;
 use crate::common::buckets::Buckets;
 use crate::common::parts;
 pub use crate::common::surface_oracle::Ball;
+use crate::common::tolerance;
 use crate::common::triangle::{distance, exact, has_area, normal};
 
 type Point = [f64; 3];
@@ -13,6 +14,8 @@ type Point = [f64; 3];
 /// The radius on a mesh, as the caller knows it.
 pub enum Field<'a> {
     PerVertex(&'a [f32]),
+    /// The square root of 1 over a density of the vertices.
+    DensityPerVertex(&'a [f32]),
     /// With the slope that is promised.
     Function(&'a dyn Fn(Point) -> f64, f64),
 }
@@ -40,11 +43,13 @@ fn middle((a, s): (Point, [f64; 2]), (b, t): (Point, [f64; 2])) -> (Point, [f64;
 
 impl Field<'_> {
     fn at(&self, mesh: &Mesh, triangle: u32, position: Point, [u, v]: [f64; 2]) -> f64 {
+        let interpolated = |values: &[f32]| {
+            let [a, b, c] = mesh.triangles()[triangle as usize].map(|vertex| f64::from(values[vertex as usize]));
+            (1.0 - u - v) * a + u * b + v * c
+        };
         match self {
-            Self::PerVertex(radii) => {
-                let [a, b, c] = mesh.triangles()[triangle as usize].map(|vertex| f64::from(radii[vertex as usize]));
-                (1.0 - u - v) * a + u * b + v * c
-            }
+            Self::PerVertex(radii) => interpolated(radii),
+            Self::DensityPerVertex(densities) => 1.0 / interpolated(densities).max(1e-30).sqrt(),
             Self::Function(at, _) => at(position),
         }
     }
@@ -54,7 +59,7 @@ impl Field<'_> {
         let corners = part.corners.map(|(position, uv)| self.at(mesh, part.triangle, position, uv));
         let least = corners.into_iter().fold(f64::INFINITY, f64::min);
         match self {
-            Self::PerVertex(_) => least,
+            Self::PerVertex(_) | Self::DensityPerVertex(_) => least,
             Self::Function(_, slope) => least - slope * part.longest(),
         }
     }
@@ -62,7 +67,7 @@ impl Field<'_> {
     /// No radius on the part is more.
     fn largest(&self, mesh: &Mesh, part: &Part) -> f64 {
         match self {
-            Self::PerVertex(_) => {
+            Self::PerVertex(_) | Self::DensityPerVertex(_) => {
                 let radius = |(position, uv)| self.at(mesh, part.triangle, position, uv);
                 part.corners.map(radius).into_iter().fold(0.0, f64::max)
             }
@@ -86,6 +91,24 @@ impl Part {
         let corners = parts::parts(self.corners, self.sides(), middle);
         corners.into_iter().map(|corners| Self { corners, ..*self }).collect()
     }
+}
+
+/// The documented tolerance of a maximal set whose radii are a multiple of those of a field, which change over it.
+pub fn tolerance(mesh: &Mesh, field: &Field, multiple: f64) -> f64 {
+    let way = tolerance::tolerance(mesh);
+    if let Field::Function(_, slope) = field {
+        return way * (1.0 + multiple * slope);
+    }
+    let of_triangle = |triangle: u32| {
+        let corners = mesh.corners(triangle).map(exact);
+        let side = |i: usize, j: usize| distance(corners[i], corners[j]);
+        let height = 2.0 * mesh.triangle_area(triangle) / side(0, 1).max(side(1, 2)).max(side(2, 0));
+        let [a, b, c] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|uv| field.at(mesh, triangle, corners[0], uv));
+        let change = multiple * (a.max(b).max(c) - a.min(b).min(c));
+        way * (1.0 + change / height) + change * 2f64.powi(-22)
+    };
+    let triangles = (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.triangle_area(triangle) > 0.0);
+    triangles.map(of_triangle).fold(0.0, f64::max)
 }
 
 /// A sample whose radius is not what the field says.
@@ -136,19 +159,37 @@ pub fn gap_around(
     tolerance: f64,
     given: &[Ball],
 ) -> Option<Point> {
+    gap_between(mesh, field, samples, radii, cosine, tolerance, given, |_| true, |_| 1.0)
+}
+
+/// [`gap_around`] on some triangles, where each sample covers within a multiple of the mean of the two radii.
+#[allow(clippy::too_many_arguments)]
+pub fn gap_between(
+    mesh: &Mesh,
+    field: &Field,
+    samples: &Points<3>,
+    radii: &[f64],
+    cosine: f64,
+    tolerance: f64,
+    given: &[Ball],
+    allows: impl Fn(u32) -> bool,
+    multiple: impl Fn(usize) -> f64,
+) -> Option<Point> {
     let given: Vec<_> = given.iter().copied().filter(|given| given.1 > 0.0).collect();
-    let buckets = Buckets::new(&samples.positions, 2.0 * (largest(radii) + tolerance));
-    (0..mesh.triangles().len() as u32).filter(|&triangle| mesh.is_sampled(triangle)).find_map(|triangle| {
+    let most = (0..radii.len()).map(&multiple).fold(0.0, f64::max);
+    let buckets = Buckets::new(&samples.positions, 2.0 * (most * largest(radii) + tolerance));
+    let is_asked = |&triangle: &u32| mesh.is_sampled(triangle) && allows(triangle);
+    (0..mesh.triangles().len() as u32).filter(is_asked).find_map(|triangle| {
         let [a, b, c] = mesh.corners(triangle).map(exact);
         if !has_area([a, b, c]) {
             return None;
         }
         let normal = normal(mesh, triangle);
         let whole = Part { triangle, corners: [(a, [0.0, 0.0]), (b, [1.0, 0.0]), (c, [0.0, 1.0])] };
-        let reach = (field.largest(mesh, &whole) + largest(radii)) / 2.0 + tolerance;
+        let reach = most * (field.largest(mesh, &whole) + largest(radii)) / 2.0 + tolerance;
         let seen = |&(i, _): &(usize, Point)| sees(samples.normals[i], normal, cosine);
         let near = buckets.near(&[a, b, c], reach).into_iter().filter(seen);
-        let balls = near.map(|(i, point)| (point, radii[i])).collect::<Vec<_>>();
+        let balls = near.map(|(i, point)| (point, radii[i], multiple(i))).collect::<Vec<_>>();
         gap_in_part(mesh, field, &whole, &balls, &given, tolerance)
     })
 }
@@ -159,18 +200,22 @@ pub fn too_near(samples: &Points<3>, given: &[Ball]) -> Option<usize> {
     samples.positions.iter().position(is_too_near)
 }
 
+/// The centre and the radius of a sample, and the multiple of the mean of two radii within which it covers.
+type Covering = (Point, f64, f64);
+
 /// A part is covered when its corners are near enough to one sample or given sample; otherwise its parts must be.
 fn gap_in_part(
     mesh: &Mesh,
     field: &Field,
     part: &Part,
-    balls: &[Ball],
+    balls: &[Covering],
     given: &[Ball],
     tolerance: f64,
 ) -> Option<Point> {
     let least = field.least(mesh, part);
-    let covers = |&(centre, radius): &Ball| {
-        part.corners.iter().all(|&(corner, _)| distance(corner, centre) <= (least + radius) / 2.0 + tolerance)
+    let covers = |&(centre, radius, multiple): &Covering| {
+        let reach = multiple * (least + radius) / 2.0 + tolerance;
+        multiple > 0.0 && part.corners.iter().all(|&(corner, _)| distance(corner, centre) <= reach)
     };
     let is_clear =
         |given: &Ball| part.corners.iter().all(|&(corner, _)| distance(corner, given.0) <= given.1 + tolerance);
@@ -182,7 +227,9 @@ fn gap_in_part(
         return Some(corner);
     }
     let largest = field.largest(mesh, part);
-    let near = |&&(centre, radius): &&Ball| distance(corner, centre) <= (largest + radius) / 2.0 + longest + tolerance;
+    let near = |&&(centre, radius, multiple): &&Covering| {
+        distance(corner, centre) <= multiple * (largest + radius) / 2.0 + longest + tolerance
+    };
     let near: Vec<_> = balls.iter().filter(near).copied().collect();
     let reaches = |given: &&Ball| distance(corner, given.0) <= given.1 + longest + tolerance;
     let given: Vec<_> = given.iter().filter(reaches).copied().collect();
