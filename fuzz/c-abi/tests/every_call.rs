@@ -17,6 +17,7 @@ use azulejo_c::kept::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_c::mesh::*;
+use azulejo_c::mesh_density::*;
 use azulejo_c::order::*;
 use azulejo_c::plane_edit::*;
 use azulejo_c::points::*;
@@ -328,6 +329,12 @@ fn surfaces() {
                 azulejo_psp_sample_classes(context.get(), normal.get(), &options, &classes, out, std::ptr::null_mut())
             };
             read_and_free(made(sample));
+            let (values, mut density) = ([1.0f32, 2.0, 1.0, 3.0], defaults(azulejo_mesh_density_init));
+            (density.vertex_values, density.vertex_count, density.radius) = (values.as_ptr(), values.len(), 1.0);
+            read_and_free(made(|out| {
+                let (mesh, report) = (normal.get(), null_mut());
+                azulejo_psp_classes_with_density(context.get(), mesh, &options, &classes, &density, out, report)
+            }));
         }
         let set = made(|out| azulejo_psp_create(context.get(), masked.get(), &options, out));
         drop(masked);
