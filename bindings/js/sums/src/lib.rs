@@ -20,6 +20,8 @@ mod plane_grid;
 mod relaxation;
 #[path = "../../../../tests/sums/surface.rs"]
 mod surface;
+#[path = "../../../../tests/sums/volume.rs"]
+mod volume;
 
 /// The lines of all calls.
 fn sums() -> Result<String> {
@@ -30,6 +32,7 @@ fn sums() -> Result<String> {
     analysis::sums(&context, &sets, &surface, &mut list)?;
     plane_grid::sums(&context, false, &mut list)?;
     mesh_grid::sums(&context, false, &mut list)?;
+    volume::sums(&context, false, &mut list)?;
     Ok(list.to_string())
 }
 
