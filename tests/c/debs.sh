@@ -60,6 +60,7 @@ END
 ./usr/include/azulejo/kdrt.h
 ./usr/include/azulejo/psp.h
 ./usr/include/azulejo/thin.h
+./usr/include/azulejo/volume.h
 ./$libraries/cmake/azulejo/azulejo-config-version.cmake
 ./$libraries/cmake/azulejo/azulejo-config.cmake
 ./$libraries/cmake/azulejo/azulejo-targets.cmake
