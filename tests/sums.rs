@@ -8,48 +8,18 @@
 //! A change that is not meant to alter a set leaves the files as they are. One that does writes them anew, and says so in the
 //! changelog: `AZULEJO_BLESS=1 cargo test --release --test sums`.
 
-#[path = "sums/analysis.rs"]
-mod analysis;
-#[path = "sums/list.rs"]
-mod list;
-#[path = "sums/mesh_grid.rs"]
-mod mesh_grid;
-#[path = "sums/meshes.rs"]
-mod meshes;
-#[path = "sums/plane.rs"]
-mod plane;
-#[path = "sums/plane_grid.rs"]
-mod plane_grid;
-#[path = "sums/relaxation.rs"]
-mod relaxation;
-#[path = "sums/surface.rs"]
-mod surface;
-#[path = "sums/volume.rs"]
-mod volume;
+#[path = "sums/all.rs"]
+mod all;
 
 use azulejo::{Context, Result};
 
-use list::List;
-
-/// The sums of all calls.
-fn sums() -> Result<List> {
-    let (context, mut list) = (Context::new(0)?, List::default());
-    let sets = plane::sums(&context, &mut list)?;
-    relaxation::sums(&context, &sets, &mut list)?;
-    let surface = surface::sums(&context, &mut list)?;
-    analysis::sums(&context, &sets, &surface, &mut list)?;
-    plane_grid::sums(&context, false, &mut list)?;
-    mesh_grid::sums(&context, false, &mut list)?;
-    volume::sums(&context, false, &mut list)?;
-    Ok(list)
-}
+use all::list::List;
+use all::{grids, sums};
 
 /// The sums of small sets.
 fn few_sums() -> Result<List> {
     let (context, mut list) = (Context::new(0)?, List::default());
-    plane_grid::sums(&context, true, &mut list)?;
-    mesh_grid::sums(&context, true, &mut list)?;
-    volume::sums(&context, true, &mut list)?;
+    grids(&context, true, &mut list)?;
     Ok(list)
 }
 
@@ -67,7 +37,7 @@ fn check(file: &str, expected: &str, sums: Result<List>) {
 
 #[test]
 fn what_calls_return_has_the_sums_of_the_file() {
-    check("tests/sums.txt", include_str!("sums.txt"), sums());
+    check("tests/sums.txt", include_str!("sums.txt"), sums(0));
 }
 
 #[test]

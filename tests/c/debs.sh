@@ -52,15 +52,7 @@ END
 ./usr/share/doc/libazulejo$abi/copyright
 END
         diff - <(cd "$work/development" && find . ! -type d | LC_ALL=C sort) <<END
-./usr/include/azulejo.h
-./usr/include/azulejo.hpp
-./usr/include/azulejo/analysis.h
-./usr/include/azulejo/base.h
-./usr/include/azulejo/dcr.h
-./usr/include/azulejo/kdrt.h
-./usr/include/azulejo/psp.h
-./usr/include/azulejo/thin.h
-./usr/include/azulejo/volume.h
+$(cd "$root" && find ./include -name "*.h*" | LC_ALL=C sort | sed "s|^./|./usr/|")
 ./$libraries/cmake/azulejo/azulejo-config-version.cmake
 ./$libraries/cmake/azulejo/azulejo-config.cmake
 ./$libraries/cmake/azulejo/azulejo-targets.cmake

@@ -7,9 +7,9 @@ use azulejo::analysis::figures::figures_2d;
 use azulejo::analysis::spectrum::periodogram;
 use azulejo::{Context, Result};
 
-use crate::list::{List, little_endian};
-use crate::plane::{SQUARE, Sets, TORUS};
-use crate::surface::Surface;
+use super::list::{List, little_endian};
+use super::plane::{SQUARE, Sets, TORUS};
+use super::surface::Surface;
 
 /// Adds the sums.
 pub fn sums(context: &Context, sets: &Sets, surface: &Surface, list: &mut List) -> Result<()> {

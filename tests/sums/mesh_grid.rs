@@ -10,8 +10,8 @@ use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
 use azulejo::psp::{self, ClassOptions, Engine, Options, ProjectionOptions, Report};
 use azulejo::{Classes, Context, Given, Order, Points, Result};
 
-use crate::list::{List, little_endian};
-use crate::meshes;
+use super::list::{List, little_endian};
+use super::meshes;
 
 /// Both halves of the grid have the same calls, on tori of these many columns and rows of quads.
 struct Size {

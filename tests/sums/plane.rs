@@ -6,7 +6,7 @@ use azulejo::dcr::{self, Density};
 use azulejo::kdrt::{self, CountOptions, Kind, MergeOptions, Options, Piece, Plane, Progressive};
 use azulejo::{Boundary, Classes, Context, Domain, Given, Points, Result, maximal, thin};
 
-use crate::list::{List, little_endian};
+use super::list::{List, little_endian};
 
 /// The unit torus and the unit square.
 pub const TORUS: Domain = rectangle([0.0; 2], [1.0; 2], Boundary::Periodic);

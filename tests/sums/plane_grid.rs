@@ -10,8 +10,8 @@ use azulejo::dcr::{self, Density, Neighbourhood};
 use azulejo::kdrt::{self, CountOptions, Kind, MergeOptions, Options, Piece, Plane, Progressive};
 use azulejo::{Boundary, Classes, Context, Domain, Given, Points, Result, maximal, thin};
 
-use crate::list::{List, little_endian};
-use crate::plane::{SQUARE, TORUS};
+use super::list::{List, little_endian};
+use super::plane::{SQUARE, TORUS};
 
 /// Both halves of the grid have the same calls, on domains of this many radii and with this many samples.
 struct Size {

@@ -5,8 +5,8 @@ use azulejo::dcr::{
 };
 use azulejo::{Context, Result};
 
-use crate::list::List;
-use crate::plane::{SQUARE, Sets, TORUS};
+use super::list::List;
+use super::plane::{SQUARE, Sets, TORUS};
 
 const DELAUNAY: Neighbourhood = Neighbourhood::Delaunay;
 const NEAREST: Neighbourhood = Neighbourhood::Nearest;

@@ -8,8 +8,8 @@ use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
 use azulejo::psp::{self, ClassOptions, Engine, Options, Priority, ProjectionOptions};
 use azulejo::{Classes, Context, Given, Order, Points, Result};
 
-use crate::list::{List, little_endian};
-use crate::meshes;
+use super::list::{List, little_endian};
+use super::meshes;
 
 /// What is measured: a closed torus with a maximal set, and an open one with a set of few samples.
 pub struct Surface {

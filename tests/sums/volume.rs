@@ -3,7 +3,7 @@
 use azulejo::volume::{Options, sample};
 use azulejo::{Boundary, Context, Domain, Result};
 
-use crate::list::List;
+use super::list::List;
 
 const fn cuboid(min: [f64; 3], max: [f64; 3], boundary: Boundary) -> Domain<3> {
     Domain { min, max, boundary }

@@ -2,44 +2,13 @@
 
 use std::sync::OnceLock;
 
-use azulejo::{Context, Result};
-
-#[path = "../../../../tests/sums/analysis.rs"]
-mod analysis;
-#[path = "../../../../tests/sums/list.rs"]
-mod list;
-#[path = "../../../../tests/sums/mesh_grid.rs"]
-mod mesh_grid;
-#[path = "../../../../tests/sums/meshes.rs"]
-mod meshes;
-#[path = "../../../../tests/sums/plane.rs"]
-mod plane;
-#[path = "../../../../tests/sums/plane_grid.rs"]
-mod plane_grid;
-#[path = "../../../../tests/sums/relaxation.rs"]
-mod relaxation;
-#[path = "../../../../tests/sums/surface.rs"]
-mod surface;
-#[path = "../../../../tests/sums/volume.rs"]
-mod volume;
-
-/// The lines of all calls.
-fn sums() -> Result<String> {
-    let (context, mut list) = (Context::new(1)?, list::List::default());
-    let sets = plane::sums(&context, &mut list)?;
-    relaxation::sums(&context, &sets, &mut list)?;
-    let surface = surface::sums(&context, &mut list)?;
-    analysis::sums(&context, &sets, &surface, &mut list)?;
-    plane_grid::sums(&context, false, &mut list)?;
-    mesh_grid::sums(&context, false, &mut list)?;
-    volume::sums(&context, false, &mut list)?;
-    Ok(list.to_string())
-}
+#[path = "../../../../tests/sums/all.rs"]
+mod all;
 
 /// The lines, or the text of an error; made once.
 fn text() -> &'static str {
     static TEXT: OnceLock<String> = OnceLock::new();
-    TEXT.get_or_init(|| sums().unwrap_or_else(|error| error.to_string()))
+    TEXT.get_or_init(|| all::sums(1).map_or_else(|error| error.to_string(), |list| list.to_string()))
 }
 
 /// Where the text is.
