@@ -121,6 +121,40 @@ fn where_no_points_are_wanted_there_are_none() {
     }
 }
 
+/// Blank squares in the middle and across the seam, of an image that is stretched.
+#[test]
+fn no_point_is_left_more_than_two_pixels_inside_blank_paper() {
+    let (width, height) = (200, 150);
+    for corner in [[75, 50], [150, 120]] {
+        let depth = |point: [f64; 2]| {
+            let side = |axis: usize, pixels: f64| {
+                let at = (point[axis] * pixels - f64::from(corner[axis])).rem_euclid(pixels);
+                at.min(50.0 - at)
+            };
+            side(0, f64::from(width)).min(side(1, f64::from(height)))
+        };
+        let center = |index: i32, count: i32| (f64::from(index) + 0.5) / f64::from(count);
+        let value = |index: i32| depth([center(index % width, width), center(index / width, height)]);
+        let values: Vec<f32> = (0..width * height).map(|index| if value(index) > 0.0 { 0.0 } else { 1.0 }).collect();
+        let density = Density::Image { values: &values, width: width as usize, height: height as usize };
+        for (boundary, seed) in BOUNDARIES.into_iter().flat_map(|boundary| (0..4).map(move |seed| (boundary, seed))) {
+            let domain = Domain { min: [-1.0, 2.0], max: [0.0, 2.5], boundary };
+            for (start, steps) in [(scattered(&domain, &density, 500, seed), 100), (uniform(&domain, seed), 1)] {
+                let options = options(domain).max_iterations(steps);
+                let (relaxed, _) = run(&options, &density, &start);
+                let share = |p: &[f32; 2]| [f64::from(p[0]) + 1.0, (f64::from(p[1]) - 2.0) / 0.5];
+                let deepest = relaxed.iter().map(|p| depth(share(p))).fold(f64::NEG_INFINITY, f64::max);
+                assert!(deepest <= 2.0, "{boundary:?} {corner:?} {seed} {steps}: {deepest}");
+            }
+        }
+    }
+}
+
+/// Random points of a domain, wherever they are wanted.
+fn uniform(domain: &Domain, seed: u64) -> Vec<[f32; 2]> {
+    scattered(domain, &Density::Function(&|_| 1.0), 500, seed)
+}
+
 #[test]
 fn a_function_is_called_once_for_each_place_before_the_first_report() {
     for boundary in BOUNDARIES {

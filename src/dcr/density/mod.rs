@@ -33,8 +33,8 @@ pub type DensityFunction<'a> = dyn Fn([f64; 2]) -> f64 + Sync + 'a;
 
 /// The density that points shall have at each position, in any unit: twice the density gives the same set.
 ///
-/// Densities are finite, at least 0, and not 0 everywhere. Where they are 0 no points are wanted, and points that start
-/// there leave.
+/// Densities are finite, at least 0, and not 0 everywhere. Where they are 0 no points are wanted: points that start or
+/// stray there return within the steps, and the last ones after them.
 #[derive(Clone, Copy)]
 pub enum Density<'a> {
     /// An image that is stretched over the domain, linear between the centres of its pixels.
@@ -273,8 +273,11 @@ impl DensityRelaxation {
                         MirrorBoundary::force_by_images(constraints, images, sum)
                     }
                 };
-                let velocity = MOMENTUM * self.velocities[point] + spacing * sum;
-                let place = self.torus.moved(self.places[point], (velocity + drift[point]).clamp_length_max(limit));
+                let (velocity, drift) = match self.raster.wanted_near(self.places[point]) {
+                    None => (MOMENTUM * self.velocities[point] + spacing * sum, drift[point]),
+                    Some(wanted) => (self.torus.offset_f32(self.places[point], wanted), Vec2::ZERO),
+                };
+                let place = self.torus.moved(self.places[point], (velocity + drift).clamp_length_max(limit));
                 (place, velocity.clamp_length_max(limit))
             };
             chunks.range(chunk).map(advance).collect()
@@ -304,12 +307,17 @@ impl Relaxation for DensityRelaxation {
         Ok(())
     }
 
-    /// Without any step, the points are those with which the set began.
+    /// Without any step, the points are those with which the set began. After the last one, points that are where none
+    /// are wanted leave at once.
     fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
         if iterations == 0 {
             let given = self.order.given().to_vec();
             self.restart(&given);
+            return Ok(());
         }
+        let wanted = |&place: &TorusPoint| self.raster.wanted_near(place).map_or(place, |near| self.torus.inside(near));
+        let places: Vec<TorusPoint> = self.places[..self.order.len()].iter().map(wanted).collect();
+        self.restart(&places);
         Ok(())
     }
 

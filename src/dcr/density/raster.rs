@@ -168,14 +168,45 @@ impl Raster {
         self.interpolate(&self.density, place)
     }
 
-    fn interpolate(&self, values: &[f32], place: TorusPoint) -> f32 {
-        let [x, y] = [0, 1].map(|axis| {
-            let share = match self.domain.boundary {
-                Boundary::Periodic => f64::from(place[axis]) / TURN,
-                Boundary::Bounded => f64::from(place[axis].min(place[axis].wrapping_neg())) / f64::from(HALF),
-            };
-            Between::of(share, self.cells[axis], self.domain.boundary)
+    /// The position to which a point of the domain returns from where the density is 0. The spacing grows from the cells
+    /// that have a density on, so its steepest descent ends in one of them; the position is the nearest of that cell.
+    pub fn wanted_near(&self, place: TorusPoint) -> Option<TorusPoint> {
+        if self.density(place) > 0.0 {
+            return None;
+        }
+        let wraps = self.domain.boundary == Boundary::Periodic;
+        let (shares, sizes) = ([0, 1].map(|axis| self.share(place[axis])), self.cells.map(|count| count as i64));
+        let index =
+            |[column, row]: [i64; 2]| (row.rem_euclid(sizes[1]) * sizes[0] + column.rem_euclid(sizes[0])) as usize;
+        let is_inside = |cell: [i64; 2]| wraps || (0..2).all(|axis| (0..sizes[axis]).contains(&cell[axis]));
+        // Beyond the seam of a torus the cells count on, so that the way back is the shorter one.
+        let mut cell = [0, 1].map(|axis| (shares[axis] * sizes[axis] as f64) as i64);
+        while self.density[index(cell)] == 0.0 {
+            let around = (-1..=1).flat_map(|up| (-1..=1).map(move |right| [right, up]));
+            let around = around.map(|by| [cell[0] + by[0], cell[1] + by[1]]).filter(|&cell| is_inside(cell));
+            let lower = around.min_by(|&a, &b| self.spacing[index(a)].total_cmp(&self.spacing[index(b)]));
+            match lower {
+                Some(lower) if self.spacing[index(lower)] < self.spacing[index(cell)] => cell = lower,
+                _ => return None,
+            }
+        }
+        let nearest = [0, 1].map(|axis| {
+            let [low, high] = [0, 1].map(|end| (cell[axis] + end) as f64 / sizes[axis] as f64);
+            shares[axis].clamp(low, high)
         });
+        Some(self.place(nearest.map(|share| if wraps { share.rem_euclid(1.0) } else { share })))
+    }
+
+    /// The fraction of the width or of the height at a coordinate of the torus.
+    fn share(&self, coordinate: u32) -> f64 {
+        match self.domain.boundary {
+            Boundary::Periodic => f64::from(coordinate) / TURN,
+            Boundary::Bounded => f64::from(coordinate.min(coordinate.wrapping_neg())) / f64::from(HALF),
+        }
+    }
+
+    fn interpolate(&self, values: &[f32], place: TorusPoint) -> f32 {
+        let [x, y] = [0, 1].map(|axis| Between::of(self.share(place[axis]), self.cells[axis], self.domain.boundary));
         let along = |row: usize| {
             let at = |column: usize| f64::from(values[row * self.cells[0] + column]);
             (1.0 - x.share) * at(x.first) + x.share * at(x.second)

@@ -131,7 +131,7 @@ impl Torus {
     }
 
     /// A point, moved back into the part of the torus that is the domain.
-    fn inside(&self, place: TorusPoint) -> TorusPoint {
+    pub fn inside(&self, place: TorusPoint) -> TorusPoint {
         match self.domain.boundary() {
             Boundary::Periodic => place,
             Boundary::Bounded => place.map(|x| x.min(x.wrapping_neg()).clamp(INSET, HALF - INSET)),
