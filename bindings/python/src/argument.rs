@@ -1,6 +1,6 @@
 //! Arguments that are no arrays: whole numbers, and names for the constants of C.
 
-use azulejo_core::{Boundary, Domain, Order};
+use azulejo_core::Order;
 use pyo3::prelude::*;
 
 use crate::error::invalid;
@@ -23,11 +23,6 @@ pub(crate) fn choice<T: Copy>(argument: &str, name: &str, choices: &[(&str, T)])
             Err(invalid(argument, format!("{name:?} is none of {}", names.join(", "))))
         }
     }
-}
-
-pub(crate) fn domain(min: [f64; 2], max: [f64; 2], boundary: &str) -> PyResult<Domain> {
-    let choices = [("periodic", Boundary::Periodic), ("bounded", Boundary::Bounded)];
-    Ok(Domain { min, max, boundary: choice("boundary", boundary, &choices)? })
 }
 
 /// `order`; what belongs to progressive order is refused in any other.

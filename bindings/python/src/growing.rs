@@ -11,6 +11,7 @@ use crate::argument::natural;
 use crate::array::{Array, GivenArrays};
 use crate::edit::region;
 use crate::error::raised;
+use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::{PspReport, priority};
@@ -22,6 +23,8 @@ use crate::watch::Watch;
 /// mesh, radius, seed, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Psp {
+    /// Of the mesh.
+    origin: [f64; 3],
     state: RwLock<State>,
 }
 
@@ -76,12 +79,12 @@ impl Psp {
         let state = &mut *state;
         py.detach(|| step(state.editable())).map_err(raised)
     }
-}
 
-/// Samples of an edit, with their ids.
-fn edited(py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Points> {
-    let ids = std::mem::take(&mut samples.ids);
-    Ok(Points::surface(py, samples)?.with_ids(py, ids))
+    /// Samples of an edit, with their ids.
+    fn edited(&self, py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Points> {
+        let ids = std::mem::take(&mut samples.ids);
+        Ok(Points::surface(py, samples, self.origin)?.with_ids(py, ids))
+    }
 }
 
 pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
@@ -107,14 +110,15 @@ impl Psp {
         given_clearances: Option<&Bound<'_, PyAny>>,
         cosine: f64,
     ) -> PyResult<Self> {
-        let given = GivenArrays::read(given_positions, given_clearances)?;
+        let origin = mesh.shared.origin();
+        let given = GivenArrays::read(given_positions, given_clearances, origin)?;
         let request = psp::ProjectionOptions::new(radius)
             .seed(natural("seed", seed)?)
             .priority(self::priority(priority)?)
             .given(given.samples()?)
             .cosine(cosine);
         let set = py.detach(|| psp::Psp::new(&mesh.shared, &request)).map_err(raised)?;
-        Ok(Self { state: RwLock::new(State::Growing(set)) })
+        Ok(Self { origin, state: RwLock::new(State::Growing(set)) })
     }
 
     /// Adds samples by iterations of projection, each along three orthogonal directions of a random frame. Two calls add
@@ -165,7 +169,11 @@ impl Psp {
         let state = self.state.try_read().map_err(|error| locked(&error))?;
         let state = &*state;
         let samples = py.detach(|| state.samples());
-        if matches!(state, State::Edited(_)) { edited(py, samples) } else { Points::surface(py, samples) }
+        if matches!(state, State::Edited(_)) {
+            self.edited(py, samples)
+        } else {
+            Points::surface(py, samples, self.origin)
+        }
     }
 
     /// Erases the samples in a ball, a box, or what both have in common, and returns them as Points with ids. From the
@@ -186,15 +194,16 @@ impl Psp {
         min: Option<[f64; 3]>,
         max: Option<[f64; 3]>,
     ) -> PyResult<Points> {
-        let region = region(centre, radius, min, max)?;
-        edited(py, self.edit(py, |set| set.erase(&region))?)
+        let local = |place: Option<_>| place.map(|place| relative(place, self.origin));
+        let region = region(local(centre), radius, local(min), local(max))?;
+        self.edited(py, self.edit(py, |set| set.erase(&region))?)
     }
 
     /// Erases samples by their ids, uint64, shape (n,), and returns them as Points.
     fn erase_ids(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<Points> {
         let ids = Array::<u64>::read("ids", ids)?;
         let ids = ids.line()?;
-        edited(py, self.edit(py, |set| set.erase_ids(ids))?)
+        self.edited(py, self.edit(py, |set| set.erase_ids(ids))?)
     }
 
     /// Puts Points back that an edit of this set erased, with their ids and all their bytes. Refused if one is too close
@@ -213,10 +222,10 @@ impl Psp {
         given_positions: &Bound<'_, PyAny>,
         given_clearances: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(u64, Points)> {
-        let given = GivenArrays::read(Some(given_positions), given_clearances)?;
+        let given = GivenArrays::read(Some(given_positions), given_clearances, self.origin)?;
         let given = given.samples()?;
         let (first, erased) = self.edit(py, |set| set.add_given(given))?;
-        Ok((first, edited(py, erased)?))
+        Ok((first, self.edited(py, erased)?))
     }
 
     /// Removes given samples by their ids, uint64, shape (n,): 0, 1, 2 and so on for those that the set was made with.
@@ -239,6 +248,6 @@ impl Psp {
         let mut state = self.state.try_write().map_err(|error| locked(&error))?;
         let state = &mut *state;
         let (added, report) = watch.run(|context, progress| state.editable().refill(context, seed, progress))?;
-        edited(py, added)?.with_report(py, PspReport::from(report))
+        self.edited(py, added)?.with_report(py, PspReport::from(report))
     }
 }

@@ -6,6 +6,7 @@ mod array;
 mod classes;
 mod edit;
 mod error;
+mod frame;
 mod growing;
 mod mesh;
 mod plane;

@@ -4,10 +4,11 @@ use azulejo_core::kdrt::{self, CountOptions, Kind, Plane, Progressive};
 use azulejo_core::{Classes, Domain, Order, maximal};
 use pyo3::prelude::*;
 
-use crate::argument::{domain, natural, order};
-use crate::array::{Array, GivenArrays};
+use crate::argument::{natural, order};
+use crate::array::GivenArrays;
 use crate::classes::matrix;
 use crate::error::{invalid, raised};
+use crate::frame::{Frame, Positions, Rows};
 use crate::points::Points;
 use crate::watch::Watch;
 
@@ -27,12 +28,12 @@ pub(crate) struct Request<'py> {
     seed: u64,
     /// Of a progressive order.
     levels: Option<Progressive>,
-    given: GivenArrays<'py>,
+    given: GivenArrays<'py, 2>,
 }
 
 impl<'py> Request<'py> {
     pub(crate) fn new(
-        domain: Domain,
+        frame: &Frame,
         leaf_size: f64,
         seed: i128,
         (order_name, quotient, coarsest): (&str, Option<f64>, Option<f64>),
@@ -47,7 +48,8 @@ impl<'py> Request<'py> {
                 Some(levels.coarsest(coarsest.unwrap_or(longest)))
             }
         };
-        Ok(Self { domain, leaf_size, seed, levels, given: GivenArrays::read(given_positions, given_clearances)? })
+        let given = GivenArrays::read(given_positions, given_clearances, frame.origin)?;
+        Ok(Self { domain: frame.domain, leaf_size, seed, levels, given })
     }
 
     pub(crate) fn by_radius(&self, radius: f64) -> PyResult<kdrt::Options<'_>> {
@@ -68,7 +70,7 @@ impl<'py> Request<'py> {
     }
 
     fn by_count(&self, count: u64) -> PyResult<CountOptions> {
-        if !self.given.samples::<2>()?.positions.is_empty() {
+        if !self.given.samples()?.positions.is_empty() {
             return Err(invalid("given_positions", "a count does not go with given samples"));
         }
         Ok(CountOptions::new(count).domain(self.domain).leaf_size(self.leaf_size).seed(self.seed).levels(self.levels))
@@ -113,22 +115,22 @@ pub(crate) fn kdrt_sample(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let watch = Watch::new(py, threads, progress)?;
     match natural("count", count)? {
         0 => {
             let request = request.by_radius(radius)?;
             let set = watch.run(|context, progress| kdrt::sample(context, &request, progress))?;
-            Points::plane(py, set)?.with_report(py, KdrtReport { radius, is_maximal: true })
+            Points::plane(py, set, &frame)?.with_report(py, KdrtReport { radius, is_maximal: true })
         }
         _ if radius != 0.0 => Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0"))),
         count => {
             let request = request.by_count(count)?;
             let (set, done) = watch.run(|context, progress| kdrt::sample_count(context, &request, progress))?;
             let report = KdrtReport { radius: done.radius, is_maximal: done.is_maximal };
-            Points::plane(py, set)?.with_report(py, report)
+            Points::plane(py, set, &frame)?.with_report(py, report)
         }
     }
 }
@@ -160,13 +162,14 @@ pub(crate) fn kdrt_sample_window(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let request = request.by_radius(radius)?;
+    let (min, max) = (frame.local(window_min), frame.local(window_max));
     let set = Watch::new(py, threads, progress)?
-        .run(|context, progress| kdrt::sample_window(context, &request, window_min, window_max, progress))?;
-    Points::plane(py, set)
+        .run(|context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
+    Points::plane(py, set, &frame)
 }
 
 /// A maximal set of several classes: samples of the classes i and j are at least radii[i][j] apart, and for each class
@@ -199,12 +202,12 @@ pub(crate) fn kdrt_sample_classes(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let classes = matrix(radii)?;
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let request = request.by_classes(0.0, &classes)?;
     let set = Watch::new(py, threads, progress)?.run(|context, progress| kdrt::sample(context, &request, progress))?;
-    Points::classified(py, set)
+    Points::classified(py, set, &frame)
 }
 
 /// A plane whose pattern is made once, for many windows of it.
@@ -213,6 +216,7 @@ pub(crate) fn kdrt_sample_classes(
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct KdrtPlane {
     plane: Plane,
+    frame: Frame,
     has_classes: bool,
 }
 
@@ -241,9 +245,9 @@ impl KdrtPlane {
         threads: i128,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let domain = domain(domain_min, domain_max, boundary)?;
+        let frame = Frame::new(domain_min, domain_max, boundary)?;
         let given = (given_positions, given_clearances);
-        let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+        let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
         let watch = Watch::new(py, threads, progress)?;
         let classes = radii.map(matrix).transpose()?;
         let request = match &classes {
@@ -251,7 +255,7 @@ impl KdrtPlane {
             Some(classes) => request.by_classes(radius, classes)?,
         };
         let plane = watch.run(|context, progress| Plane::new(context, &request, progress))?;
-        Ok(Self { plane, has_classes: classes.is_some() })
+        Ok(Self { plane, frame, has_classes: classes.is_some() })
     }
 
     /// The samples in a window, on the calling thread: the same as in the set of kdrt_sample, to the byte.
@@ -259,8 +263,9 @@ impl KdrtPlane {
     /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at
     /// once.
     fn window(&self, py: Python<'_>, window_min: [f64; 2], window_max: [f64; 2]) -> PyResult<Points> {
-        let set = py.detach(|| self.plane.window(window_min, window_max)).map_err(raised)?;
-        if self.has_classes { Points::classified(py, set) } else { Points::plane(py, set) }
+        let (min, max) = (self.frame.local(window_min), self.frame.local(window_max));
+        let set = py.detach(|| self.plane.window(min, max)).map_err(raised)?;
+        if self.has_classes { Points::classified(py, set, &self.frame) } else { Points::plane(py, set, &self.frame) }
     }
 }
 
@@ -280,11 +285,11 @@ pub(crate) fn maximal_sample(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
-    let request = maximal::Options::new(radius).domain(domain).seed(natural("seed", seed)?);
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
+    let request = maximal::Options::new(radius).domain(frame.domain).seed(natural("seed", seed)?);
     let samples =
         Watch::new(py, threads, progress)?.run(|context, progress| maximal::sample(context, &request, progress))?;
-    Points::plane(py, samples)
+    Points::plane(py, samples, &frame)
 }
 
 /// The report of kdrt_merge.
@@ -322,18 +327,20 @@ pub(crate) fn kdrt_merge<'py>(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
-    let request = kdrt::MergeOptions::new(radius).domain(domain).seed(natural("seed", seed)?);
-    let arrays: Vec<Array<f32>> =
-        pieces.iter().map(|(positions, ..)| Array::read("pieces", positions)).collect::<PyResult<_>>()?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
+    let request = kdrt::MergeOptions::new(radius).domain(frame.domain).seed(natural("seed", seed)?);
+    let around = |argument, positions| Positions::read(argument, positions)?.around::<2>(frame.origin);
+    let arrays: Vec<_> = pieces.iter().map(|(positions, ..)| around("pieces", positions)).collect::<PyResult<_>>()?;
     let pieces: Vec<_> = arrays
         .iter()
         .zip(&pieces)
-        .map(|(positions, &(_, min, max))| Ok(kdrt::Piece { samples: positions.rows()?, min, max }))
+        .map(|(positions, &(_, min, max))| {
+            Ok(kdrt::Piece { samples: positions.get()?, min: frame.local(min), max: frame.local(max) })
+        })
         .collect::<PyResult<_>>()?;
-    let fixed = crate::array::optional("fixed", fixed)?;
-    let fixed = fixed.as_ref().map_or(Ok([].as_slice()), Array::rows)?;
+    let fixed = fixed.map(|fixed| around("fixed", fixed)).transpose()?;
+    let fixed = fixed.as_ref().map_or(Ok([].as_slice()), Rows::get)?;
     let (merged, kdrt::MergeReport { kept, eliminated, inserted, .. }) = Watch::new(py, threads, progress)?
         .run(|context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;
-    Points::plane(py, merged)?.with_report(py, KdrtMergeReport { kept, eliminated, inserted })
+    Points::plane(py, merged, &frame)?.with_report(py, KdrtMergeReport { kept, eliminated, inserted })
 }

@@ -100,7 +100,7 @@ pub(crate) fn psp_sample(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let iterations = iterations.map(|iterations| natural::<u32>("iterations", iterations)).transpose()?;
     let request = psp::FlatOptions::new(radius)
         .count(natural("count", count)?)
@@ -114,7 +114,7 @@ pub(crate) fn psp_sample(
         .cosine(cosine);
     let (samples, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| request.sample(context, &mesh.shared, progress))?;
-    Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+    Points::surface(py, samples, mesh.shared.origin())?.with_report(py, PspReport::from(report))
 }
 
 pub(crate) fn priority(name: &str) -> PyResult<Priority> {
@@ -153,7 +153,7 @@ pub(crate) fn psp_sample_classes(
     let classes = matrix(radii)?;
     let masks = optional("masks", masks)?;
     let masks = masks.as_ref().map(Array::line).transpose()?;
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let request = psp::ClassOptions::default()
         .order(self::order(order, &[("quotient", quotient)])?)
         .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
@@ -162,7 +162,7 @@ pub(crate) fn psp_sample_classes(
         .cosine(cosine);
     let (samples, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
-    Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+    Points::surface(py, samples, mesh.shared.origin())?.with_report(py, PspReport::from(report))
 }
 
 /// The arguments that both adaptive calls share.
@@ -171,7 +171,7 @@ struct Adaptive<'py> {
     quotient: Option<f64>,
     seed: u64,
     cosine: f64,
-    given: GivenArrays<'py>,
+    given: GivenArrays<'py, 3>,
     watch: Watch<'py>,
 }
 
@@ -186,7 +186,7 @@ impl Adaptive<'_> {
             .given(given.samples()?);
         let (set, report) =
             watch.run(|context, progress| adaptive::sample(context, &mesh.shared, &request, progress))?;
-        Points::adaptive(py, set)?.with_report(py, PspReport::from(report))
+        Points::adaptive(py, set, mesh.shared.origin())?.with_report(py, PspReport::from(report))
     }
 }
 
@@ -218,7 +218,7 @@ pub(crate) fn psp_adaptive_sample(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let radii = Array::read("vertex_radii", vertex_radii)?;
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let watch = Watch::new(py, threads, progress)?;
     let order = self::order(order, &[("quotient", quotient)])?;
     let request = Adaptive { order, quotient, seed: natural("seed", seed)?, cosine, given, watch };
@@ -272,7 +272,7 @@ pub(crate) fn psp_adaptive_with_density(
             Density::Image { values, width, height, texture: places(texture)? }
         }
     };
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let watch = Watch::new(py, threads, progress)?;
     let order = self::order(order, &[("quotient", quotient)])?;
     let request = Adaptive { order, quotient, seed: natural("seed", seed)?, cosine, given, watch };

@@ -10,6 +10,7 @@ use crate::analysis::PlaneSet;
 use crate::argument::natural;
 use crate::array::{Array, line};
 use crate::error::{invalid, raised};
+use crate::frame::Positions;
 use crate::mesh::Mesh;
 use crate::watch::Watch;
 
@@ -45,7 +46,7 @@ pub(crate) struct SpectrumReport {
 impl Spectrum {
     #[new]
     #[pyo3(signature = (
-        positions, size, frequency_stride=1, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0,
+        positions, size, frequency_stride=1, *, domain_min=None, domain_max=None, boundary=None, threads=0,
         progress=None
     ))]
     fn new(
@@ -53,9 +54,9 @@ impl Spectrum {
         positions: &Bound<'_, PyAny>,
         size: i128,
         frequency_stride: i128,
-        domain_min: [f64; 2],
-        domain_max: [f64; 2],
-        boundary: &str,
+        domain_min: Option<[f64; 2]>,
+        domain_max: Option<[f64; 2]>,
+        boundary: Option<&str>,
         threads: i128,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
@@ -155,8 +156,9 @@ impl Differences {
         threads: i128,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let (positions, normals) = (Array::read("positions", positions)?, Array::read("normals", normals)?);
-        let (positions, normals) = (positions.rows()?, normals.rows()?);
+        let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
+        let normals = Array::read("normals", normals)?;
+        let (positions, normals) = (positions.get()?, normals.rows()?);
         let seed = natural("seed", seed)?;
         let differences = Watch::new(py, threads, progress)?.run(|context, progress| {
             surface_differences(context, &mesh.shared, positions, normals, direction, seed, progress)

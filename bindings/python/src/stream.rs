@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 use azulejo_core::kdrt::Plane;
 use pyo3::prelude::*;
 
-use crate::argument::domain;
-use crate::array::table;
+use crate::frame::{Frame, framed};
 use crate::plane::Request;
 use crate::watch::{Watch, ask, flow};
 
@@ -39,14 +38,15 @@ pub(crate) fn kdrt_stream(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, ("any", None, None), given)?;
+    let request = Request::new(&frame, leaf_size, seed, ("any", None, None), given)?;
     let request = request.by_radius(radius)?;
     let mut failed = None;
     let done = Watch::new(py, threads, progress)?.run(|context, progress| {
-        let pass =
-            |part: &[[f32; 2]]| flow(Python::attach(|py| ask(py, &visit, table(py, part.to_vec())?)), &mut failed);
+        let pass = |part: &[[f32; 2]]| {
+            flow(Python::attach(|py| ask(py, &visit, framed(py, part.to_vec(), frame.origin)?)), &mut failed)
+        };
         let part = |from: f64, to: f64| {
             move |done: f64| progress.map_or(ControlFlow::Continue(()), |tell| tell(from + (to - from) * done))
         };

@@ -5,8 +5,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::argument::{natural, order};
-use crate::array::{Array, line, line_if_any};
+use crate::array::{line, line_if_any};
 use crate::error::invalid;
+use crate::frame::Positions;
 use crate::watch::Watch;
 
 /// Points that thin() selected; len() is their number n.
@@ -35,7 +36,8 @@ impl Selection {
 
 /// Selects points of a cloud that are far from each other and near to all the others.
 ///
-/// positions: float32, shape (n, 2) or (n, 3).
+/// positions: shape (n, 2) or (n, 3), any real numbers. Doubles are rounded to float32 near an origin of their own, and
+///     the radius is lengthened by what that moved a pair at most: distances of the doubles are kept.
 /// radius: the least distance of selected points; in any order, each point is kept that no kept one of lower index is
 ///     nearer to. 0 sets none.
 /// count: the number of points to select, farthest-first. 0 sets none.
@@ -57,21 +59,30 @@ pub(crate) fn thin(
     threads: i128,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Selection> {
-    let positions = Array::read("positions", positions)?;
+    let positions = Positions::read("positions", positions)?;
     let order = self::order(order, &[])?;
-    let request =
-        Options::default().radius(radius).count(natural("count", count)?).order(order).seed(natural("seed", seed)?);
+    let request = Options::default().count(natural("count", count)?).order(order).seed(natural("seed", seed)?);
     let watch = Watch::new(py, threads, progress)?;
-    let core::Selection { indices, ranks, .. } = match *positions.shape() {
-        [_, 2] => {
-            let points = positions.rows::<2>()?;
-            watch.run(|context, progress| core::thin(context, &request, points, progress))?
-        }
-        [_, 3] | [0] => {
-            let points = positions.rows::<3>()?;
-            watch.run(|context, progress| core::thin(context, &request, points, progress))?
-        }
+    let core::Selection { indices, ranks, .. } = match positions.shape(py)?[..] {
+        [_, 2] => select::<2>(positions, radius, request, watch)?,
+        [_, 3] | [0] => select::<3>(positions, radius, request, watch)?,
         ref shape => return Err(invalid("positions", format!("its shape is {shape:?}, not [n, 2] or [n, 3]"))),
     };
     Ok(Selection { count: indices.len(), indices: line(py, indices), ranks: line_if_any(py, ranks) })
+}
+
+/// Selects points that are the radius apart as the caller gave them.
+fn select<const N: usize>(
+    positions: Positions,
+    radius: f64,
+    request: Options,
+    watch: Watch,
+) -> PyResult<core::Selection> {
+    let (rows, _, rounding) = positions.centred::<N>()?;
+    let points = rows.get()?;
+    // Both ends of a pair were moved, and sums round.
+    let longer =
+        if rounding > 0.0 && radius > 0.0 { (radius + 2.0 * rounding) * (1.0 + 4.0 * f64::EPSILON) } else { radius };
+    let request = request.radius(longer);
+    watch.run(|context, progress| core::thin(context, &request, points, progress))
 }
