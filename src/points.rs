@@ -1,7 +1,7 @@
 //! Domains and point containers.
 
-use crate::{centred, check};
 use crate::error::{Error, Result};
+use crate::{centred, check};
 
 pub(crate) use crate::check::{finest_radius, radius as check_radius, resolution as check_resolution};
 

@@ -258,11 +258,11 @@ impl Mesh {
     /// Samples at places of the caller's, evaluated with the rounding of every sampler: on the mesh that they were made
     /// on the same floats come back, on a [deformed](Mesh::deformed) one each sample goes with its triangle. O(n).
     ///
-    /// Triangles may have no area, or be left out by a mask; barycentrics may lie outside of the triangle.
+    /// Triangles may have no area, or be left out by a mask.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are of another number
-    /// or not finite.
+    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are of another number,
+    /// not finite, or outside of the triangle by more than a millionth.
     pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<Points<3>> {
         if barycentrics.len() != triangles.len() {
             let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
@@ -270,6 +270,7 @@ impl Mesh {
         }
         check::triangles(triangles, self.triangles.len())?;
         check::finite("barycentrics", "sample", barycentrics)?;
+        check::barycentrics(barycentrics)?;
         Ok(self.samples(triangles.to_vec(), barycentrics.to_vec()))
     }
 

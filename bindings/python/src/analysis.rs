@@ -8,10 +8,11 @@ use azulejo_core::{Context, Domain, Error, Progress};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::argument::natural;
+use crate::argument::{callable, maybe_pair, natural, real, whole};
 use crate::array::line;
 use crate::frame::{Frame, Positions, Rows};
 use crate::mesh::Mesh;
+use crate::taken;
 use crate::watch::Watch;
 
 /// Points of the plane in their domain.
@@ -62,11 +63,11 @@ impl<'py> PlaneSet<'py> {
 pub(crate) fn plane_smallest_distance(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
     PlaneSet::read(positions, domain_min, domain_max, boundary)?
         .run(Watch::new(py, threads, progress)?, spacing::smallest_distance_2d)
@@ -81,11 +82,11 @@ pub(crate) fn plane_smallest_distance(
 pub(crate) fn plane_covering_radius(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
     PlaneSet::read(positions, domain_min, domain_max, boundary)?
         .run(Watch::new(py, threads, progress)?, coverage::covering_radius_2d)
@@ -99,8 +100,8 @@ pub(crate) fn plane_covering_radius(
 pub(crate) fn space_smallest_distance(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
     let (positions, ..) = Positions::read("positions", positions)?.centred()?;
     let points = positions.get()?;
@@ -135,12 +136,12 @@ impl From<Coverage> for CoverageReport {
 pub(crate) fn plane_coverage(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<CoverageReport> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let coverage = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
@@ -160,11 +161,11 @@ pub(crate) fn plane_coverage(
 #[pyo3(signature = (mesh, positions, radius, *, threads=0, progress=None))]
 pub(crate) fn mesh_coverage(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<CoverageReport> {
     let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
     let points = positions.get()?;
@@ -180,13 +181,13 @@ pub(crate) fn mesh_coverage(
 #[pyo3(signature = (mesh, positions, radius, *, probes=100000, seed=0, threads=0, progress=None))]
 pub(crate) fn mesh_uncovered_fraction(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    probes: i128,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = whole::probes)] probes: i128,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
     let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
     let points = positions.get()?;
@@ -241,11 +242,11 @@ pub(crate) struct PlaneReport {
 pub(crate) fn plane_measure(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<PlaneReport> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let Figures { nearest, covering_radius, bond_order, triangles, .. } =
@@ -283,13 +284,13 @@ pub(crate) fn plane_measure(
 pub(crate) fn plane_nearest_histogram(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    reach: f64,
-    bins: i128,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = whole::bins)] bins: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyArray1<u64>>> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let bins = natural("bins", bins)?;
@@ -317,13 +318,13 @@ pub(crate) fn plane_nearest_histogram(
 pub(crate) fn plane_radial_distribution(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    reach: f64,
-    bins: i128,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = whole::bins)] bins: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyArray1<f64>>> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let bins = natural("bins", bins)?;

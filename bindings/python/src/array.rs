@@ -93,8 +93,10 @@ impl<'py, T: Entry> Array<'py, T> {
     /// An image of height rows, as its pixels, width and height.
     pub(crate) fn image(&self) -> PyResult<(&[T], [usize; 2])> {
         match *self.shape() {
-            [height, width] => Ok((self.entries(), [width, height])),
-            ref shape => Err(invalid(self.argument, format!("its shape is {shape:?}, not [height, width]"))),
+            [height, width] if height > 0 && width > 0 => Ok((self.entries(), [width, height])),
+            ref shape => {
+                Err(invalid(self.argument, format!("its shape is {shape:?}, not [height, width] with both above 0")))
+            }
         }
     }
 
@@ -111,7 +113,17 @@ impl<'py, T: Entry> Array<'py, T> {
 /// What numpy makes of an object.
 pub(crate) fn as_array<'py>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let py = object.py();
-    py.import("numpy")?.call_method1("asarray", (object,)).map_err(|error| invalid(argument, error.value(py)))
+    if object.is_none() {
+        return Err(PyTypeError::new_err(format!("{argument}: None is no array")));
+    }
+    let numpy = py.import("numpy")?;
+    let made = |name, object: &Bound<'py, PyAny>| {
+        numpy.call_method1(name, (object,)).map_err(|error| invalid(argument, error.value(py)))
+    };
+    if object.hasattr("__array__")? || !object.hasattr("__dlpack__")? {
+        return made("asarray", object);
+    }
+    made("from_dlpack", object)
 }
 
 fn converted<'py, T: Entry>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {

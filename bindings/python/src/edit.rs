@@ -6,7 +6,7 @@ use azulejo_core::kdrt::EditableSet;
 use azulejo_core::{Error, Region};
 use pyo3::prelude::*;
 
-use crate::argument::natural;
+use crate::argument::{callable, maybe_pair, maybe_real, natural, real, whole};
 use crate::array::{Array, GivenArrays};
 use crate::error::{invalid, raised};
 use crate::frame::{Frame, Positions, Rows};
@@ -85,26 +85,22 @@ impl Plane {
     ))]
     fn new(
         py: Python<'_>,
-        radius: f64,
+        #[pyo3(from_py_with = real::radius)] radius: f64,
         positions: Option<&Bound<'_, PyAny>>,
-        domain_min: Option<[f64; 2]>,
-        domain_max: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
         boundary: Option<&str>,
-        leaf_size: f64,
-        seed: i128,
+        #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let positions = positions.map(|positions| Positions::read("positions", positions)).transpose()?;
         let frame = match &positions {
             Some(positions) => Frame::around(positions, domain_min, domain_max, boundary)?,
-            None => Frame::new(
-                domain_min.unwrap_or([0.0; 2]),
-                domain_max.unwrap_or([1.0; 2]),
-                boundary.unwrap_or("periodic"),
-            )?,
+            None => Frame::new(domain_min, domain_max, boundary.unwrap_or("periodic"))?,
         };
         let given = (given_positions, given_clearances);
         let request = Request::new(&frame, leaf_size, seed, ("any", None, None), given)?;
@@ -139,10 +135,10 @@ impl Plane {
     fn erase(
         &self,
         py: Python<'_>,
-        centre: Option<[f64; 2]>,
-        radius: Option<f64>,
-        min: Option<[f64; 2]>,
-        max: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::centre)] centre: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_real::radius)] radius: Option<f64>,
+        #[pyo3(from_py_with = maybe_pair::min)] min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::max)] max: Option<[f64; 2]>,
     ) -> PyResult<Points> {
         let local = |place: Option<_>| place.map(|place| self.frame.local(place));
         let region = region(local(centre), radius, local(min), local(max))?;
@@ -192,7 +188,13 @@ impl Plane {
     ///
     /// Returns the new samples as Points.
     #[pyo3(signature = (seed=0, *, threads=0, progress=None))]
-    fn refill(&self, py: Python<'_>, seed: i128, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<Points> {
+    fn refill(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Points> {
         let seed = natural("seed", seed)?;
         let watch = Watch::new(py, threads, progress)?;
         let mut set = self.set.try_write().map_err(|error| locked(&error))?;

@@ -149,9 +149,9 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The domain of samples that are to be made.
-    pub(crate) fn new(min: [f64; 2], max: [f64; 2], boundary: &str) -> PyResult<Self> {
-        let domain = Domain { min, max, boundary: choice("boundary", boundary, &BOUNDARIES)? };
-        Ok(Self::of(domain, FAR))
+    pub(crate) fn new(min: Option<[f64; 2]>, max: Option<[f64; 2]>, boundary: &str) -> PyResult<Self> {
+        let unit = Domain::unit(choice("boundary", boundary, &BOUNDARIES)?);
+        Ok(Self::of(Domain { min: min.unwrap_or(unit.min), max: max.unwrap_or(unit.max), ..unit }, FAR))
     }
 
     /// The domain of positions that there are: by default that of Points, if they have one.

@@ -7,7 +7,7 @@ use azulejo_core::{Context, Error, Progress};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::argument::natural;
+use crate::argument::{callable, maybe_real, maybe_triple, natural, real, whole};
 use crate::array::{Array, GivenArrays};
 use crate::edit::region;
 use crate::error::raised;
@@ -15,6 +15,7 @@ use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::{PspReport, priority};
+use crate::taken;
 use crate::watch::Watch;
 
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
@@ -98,17 +99,17 @@ pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
 impl Psp {
     #[new]
     #[pyo3(signature = (
-        mesh, radius, *, seed=0, priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0
+        mesh, radius, *, seed=0, priority="squareness", given_positions=None, given_clearances=None, cosine=None
     ))]
     fn new(
         py: Python<'_>,
-        mesh: &Mesh,
-        radius: f64,
-        seed: i128,
+        #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
+        #[pyo3(from_py_with = real::radius)] radius: f64,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
         priority: &str,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
-        cosine: f64,
+        #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
     ) -> PyResult<Self> {
         let origin = mesh.shared.origin();
         let given = GivenArrays::read(given_positions, given_clearances, origin)?;
@@ -116,7 +117,7 @@ impl Psp {
             .seed(natural("seed", seed)?)
             .priority(self::priority(priority)?)
             .given(given.samples()?)
-            .cosine(cosine);
+            .cosine(cosine.unwrap_or(-1.0));
         let set = py.detach(|| psp::Psp::new(&mesh.shared, &request)).map_err(raised)?;
         Ok(Self { origin, state: RwLock::new(State::Growing(set)) })
     }
@@ -132,9 +133,9 @@ impl Psp {
     fn advance(
         &self,
         py: Python<'_>,
-        iterations: i128,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::iterations)] iterations: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<PspReport> {
         let iterations = natural("iterations", iterations)?;
         let watch = Watch::new(py, threads, progress)?;
@@ -153,7 +154,12 @@ impl Psp {
     ///
     /// Returns a PspReport of this call.
     #[pyo3(signature = (*, threads=0, progress=None))]
-    fn fill(&self, py: Python<'_>, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<PspReport> {
+    fn fill(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<PspReport> {
         self.change(Watch::new(py, threads, progress)?, |state, context, progress| match state {
             State::Growing(set) => set.fill(context, progress),
             _ => {
@@ -189,10 +195,10 @@ impl Psp {
     fn erase(
         &self,
         py: Python<'_>,
-        centre: Option<[f64; 3]>,
-        radius: Option<f64>,
-        min: Option<[f64; 3]>,
-        max: Option<[f64; 3]>,
+        #[pyo3(from_py_with = maybe_triple::centre)] centre: Option<[f64; 3]>,
+        #[pyo3(from_py_with = maybe_real::radius)] radius: Option<f64>,
+        #[pyo3(from_py_with = maybe_triple::min)] min: Option<[f64; 3]>,
+        #[pyo3(from_py_with = maybe_triple::max)] max: Option<[f64; 3]>,
     ) -> PyResult<Points> {
         let local = |place: Option<_>| place.map(|place| relative(place, self.origin));
         let region = region(local(centre), radius, local(min), local(max))?;
@@ -242,7 +248,13 @@ impl Psp {
     ///
     /// Returns the new samples as Points with ids and the report PspReport.
     #[pyo3(signature = (seed=0, *, threads=0, progress=None))]
-    fn refill(&self, py: Python<'_>, seed: i128, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<Points> {
+    fn refill(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Points> {
         let seed = natural("seed", seed)?;
         let watch = Watch::new(py, threads, progress)?;
         let mut state = self.state.try_write().map_err(|error| locked(&error))?;

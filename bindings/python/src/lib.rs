@@ -16,6 +16,7 @@ mod relax;
 mod remesh;
 mod spectrum;
 mod stream;
+mod taken;
 mod thin;
 mod watch;
 

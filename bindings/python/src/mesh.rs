@@ -11,16 +11,19 @@ use crate::array::{Array, line, optional, table};
 use crate::error::{invalid, raised};
 use crate::frame::{Positions, framed};
 use crate::points::Points;
+use crate::taken;
 
 /// A triangle mesh, as it comes: open, in parts, wound in any way. Immutable; several threads may use it at once.
 ///
 /// positions: of the vertices, shape (v, 3), any real numbers, of which float32 is kept, relative to an origin: 0 unless
 ///     the mesh lies so far from there that rounding would move vertices by more than a millionth of its size.
-/// indices: of the triangles' corners, uint32, shape (t, 3); other whole numbers are converted.
+/// indices: of the triangles' corners, whole numbers of any type, shape (t, 3); faces of more corners become fans of
+///     triangles.
 /// normals: float32, shape (v, 3), or any number of them with normal_indices. Samples have them interpolated.
 /// normal_indices: uint32, shape (t, 3): the normals of the triangles' corners.
 /// mask: bool, shape (t,): triangles with False get no samples and need not be covered.
-#[pyclass(frozen, module = "azulejo")]
+#[pyclass(frozen, module = "azulejo", skip_from_py_object)]
+#[derive(Clone)]
 pub(crate) struct Mesh {
     pub(crate) shared: Arc<mesh::Mesh>,
 }
@@ -45,7 +48,7 @@ impl Mesh {
     ) -> PyResult<Self> {
         let (positions, origin, _) = Positions::read("positions", positions)?.centred()?;
         let positions = positions.get()?.to_vec();
-        let indices = Array::<u32>::read("indices", indices)?.rows()?.to_vec();
+        let indices = taken::triangles(indices)?;
         let made = py.detach(|| mesh::Mesh::new(positions, indices)).map_err(raised)?;
         let mut mesh: Self = made.with_origin(origin).into();
         if let Some(normals) = normals {

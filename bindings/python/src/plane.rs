@@ -4,7 +4,7 @@ use azulejo_core::kdrt::{self, CountOptions, Kind, Plane, Progressive};
 use azulejo_core::{Classes, Domain, Order, maximal};
 use pyo3::prelude::*;
 
-use crate::argument::{natural, order};
+use crate::argument::{amount, callable, maybe_pair, maybe_real, natural, number, one_of, order, pair, real, whole};
 use crate::array::GivenArrays;
 use crate::classes::matrix;
 use crate::error::{invalid, raised};
@@ -80,12 +80,15 @@ impl<'py> Request<'py> {
 /// A maximal Poisson-disk set of a rectangle or torus: no two samples are closer than a radius, and no place is farther
 /// from all of them. Time grows in proportion to the samples.
 ///
-/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or: count: the number of samples,
-/// which is met exactly; the radius is found. Twice the work. domain_min, domain_max: the corners of the domain, two
-/// numbers each; samples lie in min <= x < max. boundary: "periodic" (distances wrap around) or "bounded". leaf_size:
-/// in radii, at least 6. Larger is faster and less biased. seed: 0 to 2**64 - 1. The same arguments and seed give the
-/// same bytes. order: "any", or "progressive": every prefix is well spread, and the points have ranks. quotient,
-/// coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
+/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or:
+/// count: the number of samples, which is met exactly; the radius is found. Twice the work.
+/// domain_min, domain_max: the corners of the domain, two numbers each; samples lie in min <= x < max. Default: the unit
+///     square. Positions are float32, or float64 in a domain that lies farther from the origin than 1024 times its size.
+/// boundary: "periodic" (distances wrap around) or "bounded".
+/// leaf_size: in radii, at least 6. Larger is faster and less biased.
+/// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
+/// quotient, coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
 ///     radius of the coarsest level (default: so large that it reaches over the domain).
 /// given_positions: float32, shape (m, 2): samples that stay and are not returned.
 /// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius.
@@ -95,27 +98,28 @@ impl<'py> Request<'py> {
 /// Returns Points with the report KdrtReport.
 #[pyfunction]
 #[pyo3(signature = (
-    radius=0.0, *, count=0, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
+    radius=0.0, *, count=0, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0, seed=0,
     order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample(
     py: Python<'_>,
-    radius: f64,
-    count: i128,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = amount::radius)] radius: f64,
+    #[pyo3(from_py_with = number::count)] count: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
-    quotient: Option<f64>,
-    coarsest: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let frame = Frame::new(domain_min, domain_max, boundary)?;
+    one_of(radius, count, frame.domain.extent(), "domain")?;
     let given = (given_positions, given_clearances);
     let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let watch = Watch::new(py, threads, progress)?;
@@ -140,27 +144,27 @@ pub(crate) fn kdrt_sample(
 /// window_min, window_max: the corners, two numbers each, inside the domain. The others are those of kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    window_min, window_max, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic",
+    window_min, window_max, radius, *, domain_min=None, domain_max=None, boundary="periodic",
     leaf_size=20.0, seed=0, order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None,
     threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample_window(
     py: Python<'_>,
-    window_min: [f64; 2],
-    window_max: [f64; 2],
-    radius: f64,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = pair::window_min)] window_min: [f64; 2],
+    #[pyo3(from_py_with = pair::window_max)] window_max: [f64; 2],
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
-    quotient: Option<f64>,
-    coarsest: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
@@ -182,24 +186,24 @@ pub(crate) fn kdrt_sample_window(
 /// Returns Points with classes.
 #[pyfunction]
 #[pyo3(signature = (
-    radii, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0, order="any",
+    radii, *, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0, seed=0, order="any",
     quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample_classes(
     py: Python<'_>,
     radii: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
-    quotient: Option<f64>,
-    coarsest: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let classes = matrix(radii)?;
     let frame = Frame::new(domain_min, domain_max, boundary)?;
@@ -224,26 +228,26 @@ pub(crate) struct KdrtPlane {
 impl KdrtPlane {
     #[new]
     #[pyo3(signature = (
-        radius=0.0, *, radii=None, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0,
+        radius=0.0, *, radii=None, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0,
         seed=0, order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0,
         progress=None
     ))]
     fn new(
         py: Python<'_>,
-        radius: f64,
+        #[pyo3(from_py_with = amount::radius)] radius: f64,
         radii: Option<&Bound<'_, PyAny>>,
-        domain_min: [f64; 2],
-        domain_max: [f64; 2],
+        #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
         boundary: &str,
-        leaf_size: f64,
-        seed: i128,
+        #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
         order: &str,
-        quotient: Option<f64>,
-        coarsest: Option<f64>,
+        #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+        #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let frame = Frame::new(domain_min, domain_max, boundary)?;
         let given = (given_positions, given_clearances);
@@ -273,17 +277,17 @@ impl KdrtPlane {
 /// kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0, progress=None
+    radius, *, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0, progress=None
 ))]
 pub(crate) fn maximal_sample(
     py: Python<'_>,
-    radius: f64,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let frame = Frame::new(domain_min, domain_max, boundary)?;
     let request = maximal::Options::new(radius).domain(frame.domain).seed(natural("seed", seed)?);
@@ -312,20 +316,20 @@ pub(crate) struct KdrtMergeReport {
 /// Returns Points with the report KdrtMergeReport.
 #[pyfunction]
 #[pyo3(signature = (
-    pieces, radius, *, fixed=None, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0,
+    pieces, radius, *, fixed=None, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0,
     progress=None
 ))]
 pub(crate) fn kdrt_merge<'py>(
     py: Python<'py>,
     pieces: Vec<(Bound<'py, PyAny>, [f64; 2], [f64; 2])>,
-    radius: f64,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
     fixed: Option<&Bound<'py, PyAny>>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let frame = Frame::new(domain_min, domain_max, boundary)?;
     let request = kdrt::MergeOptions::new(radius).domain(frame.domain).seed(natural("seed", seed)?);

@@ -8,12 +8,13 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::analysis::PlaneSet;
-use crate::argument::{choice, natural};
+use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_whole, natural, whole};
 use crate::array::{Array, line};
 use crate::error::invalid;
 use crate::frame::Frame;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::taken;
 use crate::watch::Watch;
 
 /// The report of a relaxation.
@@ -118,24 +119,24 @@ fn with_steps(domain: Domain, max_iterations: i128, tolerance: Option<f64>, seed
 pub(crate) fn dcr_relax(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
     neighbourhood: &str,
     method: &str,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    conflict_radius: Option<f64>,
-    attraction_radius: Option<f64>,
-    step: Option<f64>,
-    decay: Option<f64>,
-    neighbours: Option<i128>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = maybe_real::conflict_radius)] conflict_radius: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::attraction_radius)] attraction_radius: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::step)] step: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::decay)] decay: Option<f64>,
+    #[pyo3(from_py_with = maybe_whole::neighbours)] neighbours: Option<i128>,
     distribution: Option<&str>,
     visits: Option<&str>,
     convergence: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let (points, domain) = (set.points()?, set.frame.domain);
@@ -204,14 +205,14 @@ pub(crate) fn dcr_relax_classes(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
     classes: &Bound<'_, PyAny>,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let classes = Array::read("classes", classes)?;
@@ -246,14 +247,14 @@ pub(crate) fn dcr_relax_density(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
     density: &Bound<'_, PyAny>,
-    domain_min: Option<[f64; 2]>,
-    domain_max: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: Option<&str>,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let density = Array::read("density", density)?;
@@ -270,19 +271,19 @@ pub(crate) fn dcr_relax_density(
 /// density: as in dcr_relax_density. count: their number. The others are those of kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    density, count, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0,
+    density, count, *, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0,
     progress=None
 ))]
 pub(crate) fn dcr_scatter(
     py: Python<'_>,
     density: &Bound<'_, PyAny>,
-    count: i128,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = whole::count)] count: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let density = Array::read("density", density)?;
     let (values, [width, height]) = density.image()?;
@@ -307,14 +308,14 @@ pub(crate) fn dcr_scatter(
 ))]
 pub(crate) fn dcr_surface_relax(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     triangles: &Bound<'_, PyAny>,
     barycentrics: &Bound<'_, PyAny>,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let (triangles, barycentrics) = (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
     let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);

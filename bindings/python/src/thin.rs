@@ -4,7 +4,7 @@ use azulejo_core::thin::{self as core, Options};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::argument::{natural, order};
+use crate::argument::{amount, callable, natural, number, order, whole};
 use crate::array::{line, line_if_any};
 use crate::error::invalid;
 use crate::frame::Positions;
@@ -52,12 +52,12 @@ impl Selection {
 pub(crate) fn thin(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    count: i128,
+    #[pyo3(from_py_with = amount::radius)] radius: f64,
+    #[pyo3(from_py_with = number::count)] count: i128,
     order: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Selection> {
     let positions = Positions::read("positions", positions)?;
     let order = self::order(order, &[])?;
