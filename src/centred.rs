@@ -44,6 +44,12 @@ impl<const D: usize> Centred<D> {
         Self::around(positions, origin)
     }
 
+    /// The radius that rounded positions have to keep, so that those that were rounded keep `radius`: both ends of a pair
+    /// may have moved by the rounding, and sums round.
+    pub fn lengthened(radius: f64, rounding: f64) -> f64 {
+        if rounding > 0.0 && radius > 0.0 { (radius + 2.0 * rounding) * (1.0 + 4.0 * f64::EPSILON) } else { radius }
+    }
+
     /// Rounds positions relative to an origin that is known. O(n).
     pub fn around(positions: &[[f64; D]], origin: [f64; D]) -> Self {
         let mut rounding = 0f64;

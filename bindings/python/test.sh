@@ -28,7 +28,7 @@ wheel_for() { echo "$wheels"/azulejo_sampling-*-cp39-abi3-*"$1".whl; }
 # The source distribution, in a directory of its own.
 source_distribution() {
     rm -rf "$work/sdist"
-    PATH=$work/tools/bin:$PATH maturin sdist --quiet --out "$work/sdist"
+    PATH=$work/tools/bin:$PATH maturin sdist --out "$work/sdist"
 }
 
 # A wheel of what the source distribution holds, and nothing else.

@@ -227,3 +227,50 @@ fn counts_can_be_written_with_an_exponent() {
         workshop.refuse(&["plane", "--count", count, "-o", "a.ply"], 2);
     }
 }
+
+#[test]
+fn a_plane_in_a_ply_file_has_a_z_that_other_programs_need() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "a.ply"]);
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "a.csv"]);
+    let file = std::fs::read(workshop.path("a.ply")).unwrap();
+    let end = b"end_header\n";
+    let start = file.windows(end.len()).position(|part| part == end).unwrap() + end.len();
+    let header = String::from_utf8_lossy(&file[..start]).into_owned();
+    assert!(header.contains("property float x\nproperty float y\nproperty float z\nend_header\n"), "{header}");
+    let rows: Vec<_> = file[start..].as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+    let text = std::fs::read_to_string(workshop.path("a.csv")).unwrap();
+    let expected = text.lines().skip(1).map(|line| format!("{line},0"));
+    assert!(rows.chunks(3).map(|row| format!("{},{},{}", row[0], row[1], row[2])).eq(expected));
+    // It is a set of the plane all the same.
+    workshop.succeed(&["relax", "a.ply", "--iterations", "2", "-o", "b.ply"]);
+    workshop.succeed(&["mesh", "sphere", "-o", "mesh.ply"]);
+    let said = workshop.refuse(&["analyze", "a.ply", "--mesh", "mesh.ply"], 1);
+    assert!(said.contains("holds points in the plane"), "{said}");
+}
+
+#[test]
+fn coordinates_that_floats_would_displace_are_refused_with_the_way_out() {
+    let workshop = Workshop::new();
+    workshop.write("far.csv", "x,y\n500000.3,4649776.7\n500001.1,4649777.2\n500000.9,4649776.1\n");
+    let said =
+        workshop.refuse(&["relax", "far.csv", "--domain", "500000", "4649776", "500002", "4649778", "-o", "b.csv"], 1);
+    assert!(said.contains("floats would displace: subtract 500000") && said.contains("from y first"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_stops_early_is_no_failure() {
+    use std::io::Read;
+    use std::process::Stdio;
+
+    let workshop = Workshop::new();
+    for format in ["csv", "ply", "npy", "raw"] {
+        let mut command = workshop.command(&["plane", "--radius", "0.002", "-o", "-", "--format", format]);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut some = [0; 10];
+        child.stdout.take().unwrap().read_exact(&mut some).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{format}: {output:?}");
+    }
+}

@@ -63,6 +63,9 @@ fn read(path: &Path, input: &mut dyn Input, length: u64) -> Result<Mesh> {
         _ => (obj::parse, obj::doubles),
     };
     let mut soup = passed(path, source, parse)?;
+    if soup.triangles.is_empty() && !matches!(extension.as_deref(), Some("obj" | "ply" | "stl")) {
+        return Err(format_error(path, "holds no mesh in a format that is read: OBJ, PLY, STL".to_owned()));
+    }
     let mut origin = [0.0; 3];
     if is_far(&soup.positions) {
         input.rewind().map_err(|source| Error::Io { path: path.to_owned(), source })?;

@@ -1,5 +1,6 @@
 //! Some points of a cloud, far from each other.
 
+use azulejo_core::Centred;
 use azulejo_core::thin::{self as core, Options};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -80,9 +81,6 @@ fn select<const N: usize>(
 ) -> PyResult<core::Selection> {
     let (rows, _, rounding) = positions.centred::<N>()?;
     let points = rows.get()?;
-    // Both ends of a pair were moved, and sums round.
-    let longer =
-        if rounding > 0.0 && radius > 0.0 { (radius + 2.0 * rounding) * (1.0 + 4.0 * f64::EPSILON) } else { radius };
-    let request = request.radius(longer);
+    let request = request.radius(Centred::<N>::lengthened(radius, rounding));
     watch.run(|context, progress| core::thin(context, &request, points, progress))
 }
