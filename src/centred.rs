@@ -5,9 +5,9 @@
 
 /// Positions in floats, relative to an origin in doubles: position `i` in the caller's frame is `origin + positions[i]`.
 ///
-/// The origin is 0 on each axis where rounding moves no coordinate by more than a millionth (2^-20) of the longest side of
-/// the box around all positions, so that data near the origin stay as they are. On any other axis it is near the middle
-/// of the box, a multiple of a power of two that is about 2^-10 of the longest side: subtracting it is exact.
+/// The origin is 0 where rounding moves no coordinate by more than a millionth (2^-20) of the longest side of the box around
+/// all positions, so that data near the origin stay as they are. Otherwise it is, on each axis whose coordinates exceed
+/// that side 15 times, near the middle of the box, a multiple of a power of two that is about 2^-10 of the longest side: subtracting it is exact.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Centred<const D: usize> {
@@ -21,6 +21,9 @@ pub struct Centred<const D: usize> {
 
 /// The share of the extent by which rounding may move a coordinate.
 const SHARE: f64 = 1.0 / (1u32 << 20) as f64;
+
+/// The times that coordinates exceed the extent where floats round them by its share, less their own rounding.
+const FAR: f64 = 15.0;
 
 /// How many steps of the origin there are, at least, in the extent.
 const STEPS: f64 = (1u32 << 10) as f64;
@@ -39,7 +42,9 @@ impl<const D: usize> Centred<D> {
         }
         let extent = (0..D).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
         // What is not finite stays where it is, so that it can be named.
-        let is_far = |axis: usize| extent.is_finite() && errors[axis] > SHARE * extent;
+        let is_rounded = extent.is_finite() && errors.iter().any(|&error| error > SHARE * extent);
+        // Samples of an axis whose coordinates happen to be floats are no better off there.
+        let is_far = |axis: usize| is_rounded && low[axis].abs().max(high[axis].abs()) > FAR * extent;
         let origin = std::array::from_fn(|axis| if is_far(axis) { origin(low[axis], high[axis], extent) } else { 0.0 });
         Self::around(positions, origin)
     }
@@ -130,7 +135,7 @@ mod tests {
         assert!(
             matches!(Centred::of(&cloud).origin, [x, y, 0.0] if (x - 500_050.0).abs() < 1.0 && (y - 4_649_826.0).abs() < 1.0)
         );
-        assert_eq!(Centred::of(&[[0.1 + 1e6, 7.0]]).positions, [[0.0, 7.0]]);
+        assert_eq!(Centred::of(&[[0.1 + 1e6, 7.0]]).positions, [[0.0, 0.0]]);
         assert_eq!(Centred::<2>::of(&[]).origin, [0.0; 2]);
         let odd = Centred::of(&[[f64::NAN, 1e300], [1e6 + 0.3, f64::NEG_INFINITY]]).positions;
         assert!(odd[0][0].is_nan() && odd[0][1].is_infinite() && odd[1][1].is_infinite());

@@ -8,13 +8,13 @@ mod ply;
 use std::fs;
 
 use common::Workshop;
-use ply::{floats, nearest, points};
+use ply::{flat, nearest, points};
 
 #[test]
 fn plane_writes_a_conflict_free_set_and_its_domain() {
     let workshop = Workshop::new();
     let said = workshop.succeed(&["plane", "--radius", "0.05", "-o", "a.ply"]);
-    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    let (header, points) = flat(&fs::read(workshop.path("a.ply")).unwrap(), 2);
     assert!(header.contains("comment domain 0 0 1 1 periodic\n"), "{header}");
     assert!(header.contains(&format!("element vertex {}\n", points.len())));
     assert!((230..330).contains(&points.len()), "{}", points.len());
@@ -47,7 +47,7 @@ fn plane_fills_the_rectangle_that_it_is_given() {
     let arguments = ["plane", "--count", "500", "--domain", "-3", "2", "-1", "3", "--bounded", "--leaf-size", "8"];
     let said = workshop.succeed(&[&arguments[..], &["-o", "a.ply"]].concat());
     assert!(said.starts_with("a.ply: 500 samples, radius 0.0"), "{said}");
-    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    let (header, points) = flat(&fs::read(workshop.path("a.ply")).unwrap(), 2);
     assert!(header.contains("comment domain -3 2 -1 3 bounded\n"), "{header}");
     assert_eq!(points.len(), 500);
     assert!(points.iter().all(|p| (-3.0..-1.0).contains(&p[0]) && (2.0..3.0).contains(&p[1])));
@@ -58,7 +58,7 @@ fn plane_sets_in_progressive_order_are_nested() {
     let workshop = Workshop::new();
     let made = |name: &str, arguments: &[&str]| {
         workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
-        floats(&fs::read(workshop.path(name)).unwrap(), 3).1
+        flat(&fs::read(workshop.path(name)).unwrap(), 3).1
     };
     let (few, many) = (made("a.ply", &["--count", "200"]), made("b.ply", &["--count", "2000"]));
     assert!(few.len() == 200 && few == many[..200]);
@@ -79,8 +79,8 @@ fn ranked(workshop: &Workshop, name: &str) -> Vec<[f32; 3]> {
     let row = |row: &[f32]| [row[0], row[1], row[2]];
     match name.rsplit('.').next().unwrap() {
         "ply" => {
-            let (header, rows) = floats(&bytes, 3);
-            assert!(header.contains("property float y\nproperty float rank\nend_header"), "{header}");
+            let (header, rows) = flat(&bytes, 3);
+            assert!(header.contains("property float z\nproperty float rank\nend_header"), "{header}");
             rows.iter().map(|floats| row(floats)).collect()
         }
         "csv" => {
@@ -209,7 +209,7 @@ fn a_window_has_the_samples_that_the_whole_set_has_there() {
     let window = ["--window", "0.25", "0.5", "0.75", "1"];
     workshop.succeed(&[&radius[..], &window, &["-o", "window.ply"]].concat());
     let [(_, whole), (header, part)] =
-        ["whole.ply", "window.ply"].map(|name| floats(&fs::read(workshop.path(name)).unwrap(), 2));
+        ["whole.ply", "window.ply"].map(|name| flat(&fs::read(workshop.path(name)).unwrap(), 2));
     let inside = |point: &&Vec<f32>| (0.25..0.75).contains(&point[0]) && point[1] >= 0.5;
     assert_eq!(part, whole.iter().filter(inside).cloned().collect::<Vec<_>>());
     assert!(part.len() > 1000 && header.contains("comment domain 0.25 0.5 0.75 1 bounded\n"), "{header}");
