@@ -1296,6 +1296,13 @@ public:
         return {azulejo_mesh_indices(get()), 3 * triangle_count()};
     }
     Span<const std::uint32_t> indices() const && = delete;
+    /// What positions are relative to, x y z; see azulejo_mesh_origin.
+    std::array<double, 3> origin() const noexcept {
+        std::array<double, 3> found{};
+        azulejo_mesh_origin(get(), found.data());
+        return found;
+    }
+
     /// The area of all triangles that no mask leaves out; see azulejo_mesh_area.
     double area() const noexcept { return azulejo_mesh_area(get()); }
 };

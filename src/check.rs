@@ -73,6 +73,24 @@ pub fn triangles(triangles: &[u32], count: usize) -> Result<()> {
     }
 }
 
+/// How far outside of a triangle barycentrics may be, by rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Refuses places (`barycentrics`) outside of a triangle.
+pub fn barycentrics(barycentrics: &[[f32; 2]]) -> Result<()> {
+    // The comparison fails for NaN too.
+    let is_outside = |&[u, v]: &[f32; 2]| {
+        ![u.into(), v.into(), 1.0 - f64::from(u) - f64::from(v)].iter().all(|&x: &f64| x >= -ROUNDING)
+    };
+    match barycentrics.iter().position(is_outside) {
+        None => Ok(()),
+        Some(i) => {
+            let [u, v] = barycentrics[i];
+            Err(Error::invalid("barycentrics", format!("[{i}] is ({u}, {v}), outside the triangle")))
+        }
+    }
+}
+
 /// Refuses more than 2^32 - 1 items, which could not be indexed.
 pub fn indexable(argument: &'static str, items: &str, count: usize) -> Result<()> {
     if count <= u32::MAX as usize {
@@ -96,8 +114,10 @@ pub fn resolution(argument: &'static str, radius: f64, spacing: f64, place: &str
     if radius >= finest {
         return Ok(());
     }
-    let reason =
-        format!("{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {spacing:?} at {place}");
+    let reason = format!(
+        "{radius:?} is below {finest:?}, {FINEST_RADIUS} times the float spacing {spacing:?} at {place}; move it nearer to \
+         the origin, or take a larger radius"
+    );
     Err(Error::invalid(argument, reason))
 }
 
@@ -124,7 +144,14 @@ mod tests {
             "positions: 4294967296 points; the limit is 4294967295"
         );
         let coarse = resolution("radius", 1.0, 0.5, "the largest coordinate");
-        assert_eq!(said(coarse), "radius: 1.0 is below 32.0, 64 times the float spacing 0.5 at the largest coordinate");
+        let expected = "radius: 1.0 is below 32.0, 64 times the float spacing 0.5 at the largest coordinate; move it nearer \
+                        to the origin, or take a larger radius";
+        assert_eq!(said(coarse), expected);
+        assert_eq!(
+            said(barycentrics(&[[0.0, 1.0], [0.5, 0.6]])),
+            "barycentrics: [1] is (0.5, 0.6), outside the triangle"
+        );
+        assert!(barycentrics(&[[f32::NAN, 0.0]]).is_err() && barycentrics(&[[-1e-5, 0.5]]).is_err());
     }
 
     #[test]
@@ -138,6 +165,7 @@ mod tests {
             triangles(&[6], 7),
             indexable("a", "points", u32::MAX as usize),
             resolution("radius", 32.0, 0.5, "a place"),
+            barycentrics(&[[0.0, 0.0], [1.0, 0.0], [0.3, 0.7], [-1e-7, 1.0]]),
         ];
         assert!(all.iter().all(Result::is_ok));
     }

@@ -42,6 +42,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod analysis;
+mod centred;
 mod check;
 mod classes;
 pub mod dcr;
@@ -71,6 +72,7 @@ pub mod thin;
 pub mod trace;
 pub mod volume;
 
+pub use centred::Centred;
 pub use classes::Classes;
 pub use editable::EditableSet;
 pub use error::{Error, Result};

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, Literal, Optional, SupportsFloat, SupportsIndex, Union
+from typing import Any, Literal, Optional, Protocol, SupportsFloat, SupportsIndex, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,11 +14,38 @@ _Boundary = Literal["periodic", "bounded"]
 _Order = Literal["any", "progressive"]
 _Progress = Optional[Callable[[float], object]]
 
+# Doubles where the domain or mesh has an origin that is not 0.
+_Floats = Union[NDArray[np.float32], NDArray[np.float64]]
+
+class _HasFaces(Protocol):
+    vertices: Any
+    faces: Any
+
+class _HasTriangles(Protocol):
+    vertices: Any
+    triangles: Any
+
+class _PolyData(Protocol):
+    points: Any
+    faces: Any
+
+_MeshLike = Union[Mesh, tuple[ArrayLike, ArrayLike], _HasFaces, _HasTriangles, _PolyData]
+
 class Cancelled(Exception): ...
 
 class Points:
     @property
-    def positions(self) -> NDArray[np.float32]: ...
+    def positions(self) -> _Floats: ...
+    @property
+    def local_positions(self) -> NDArray[np.float32]: ...
+    @property
+    def origin(self) -> NDArray[np.float64]: ...
+    @property
+    def domain_min(self) -> Optional[list[float]]: ...
+    @property
+    def domain_max(self) -> Optional[list[float]]: ...
+    @property
+    def boundary(self) -> Optional[_Boundary]: ...
     @property
     def normals(self) -> Optional[NDArray[np.float32]]: ...
     @property
@@ -58,11 +85,11 @@ class KdrtMergeReport:
 class KdrtPlane:
     def __init__(
         self,
-        radius: SupportsFloat = 0.0,
+        radius: Optional[SupportsFloat] = 0.0,
         *,
         radii: Optional[ArrayLike] = None,
-        domain_min: _Numbers = [0.0, 0.0],
-        domain_max: _Numbers = [1.0, 1.0],
+        domain_min: Optional[_Numbers] = None,
+        domain_max: Optional[_Numbers] = None,
         boundary: _Boundary = "periodic",
         leaf_size: SupportsFloat = 20.0,
         seed: SupportsIndex = 0,
@@ -82,9 +109,9 @@ class Plane:
         radius: SupportsFloat,
         positions: Optional[ArrayLike] = None,
         *,
-        domain_min: _Numbers = [0.0, 0.0],
-        domain_max: _Numbers = [1.0, 1.0],
-        boundary: _Boundary = "periodic",
+        domain_min: Optional[_Numbers] = None,
+        domain_max: Optional[_Numbers] = None,
+        boundary: Optional[_Boundary] = None,
         leaf_size: SupportsFloat = 20.0,
         seed: SupportsIndex = 0,
         given_positions: Optional[ArrayLike] = None,
@@ -132,7 +159,11 @@ class Mesh:
     @property
     def triangle_count(self) -> int: ...
     @property
-    def positions(self) -> NDArray[np.float32]: ...
+    def positions(self) -> _Floats: ...
+    @property
+    def local_positions(self) -> NDArray[np.float32]: ...
+    @property
+    def origin(self) -> NDArray[np.float64]: ...
     @property
     def indices(self) -> NDArray[np.uint32]: ...
     @property
@@ -165,14 +196,14 @@ class PspReport:
 class Psp:
     def __init__(
         self,
-        mesh: Mesh,
+        mesh: _MeshLike,
         radius: SupportsFloat,
         *,
         seed: SupportsIndex = 0,
         priority: Literal["squareness", "projector"] = "squareness",
         given_positions: Optional[ArrayLike] = None,
         given_clearances: Optional[ArrayLike] = None,
-        cosine: SupportsFloat = -1.0,
+        cosine: Optional[SupportsFloat] = None,
     ) -> None: ...
     def advance(
         self, iterations: SupportsIndex, *, threads: SupportsIndex = 0, progress: _Progress = None
@@ -307,9 +338,9 @@ class Spectrum:
         size: SupportsIndex,
         frequency_stride: SupportsIndex = 1,
         *,
-        domain_min: _Numbers = [0.0, 0.0],
-        domain_max: _Numbers = [1.0, 1.0],
-        boundary: _Boundary = "periodic",
+        domain_min: Optional[_Numbers] = None,
+        domain_max: Optional[_Numbers] = None,
+        boundary: Optional[_Boundary] = None,
         threads: SupportsIndex = 0,
         progress: _Progress = None,
     ) -> None: ...
@@ -325,10 +356,10 @@ class Spectrum:
 class Differences:
     def __init__(
         self,
-        mesh: Mesh,
+        mesh: _MeshLike,
         positions: ArrayLike,
         normals: ArrayLike,
-        direction: _Numbers = [1.0, 0.0, 0.0],
+        direction: Optional[_Numbers] = None,
         *,
         seed: SupportsIndex = 0,
         threads: SupportsIndex = 0,
@@ -344,11 +375,11 @@ class Differences:
 
 def classes_radii(own: ArrayLike, factor: SupportsFloat = 1.0) -> NDArray[np.float64]: ...
 def kdrt_sample(
-    radius: SupportsFloat = 0.0,
+    radius: Optional[SupportsFloat] = 0.0,
     *,
-    count: SupportsIndex = 0,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    count: Optional[SupportsIndex] = 0,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     leaf_size: SupportsFloat = 20.0,
     seed: SupportsIndex = 0,
@@ -365,8 +396,8 @@ def kdrt_sample_window(
     window_max: _Numbers,
     radius: SupportsFloat,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     leaf_size: SupportsFloat = 20.0,
     seed: SupportsIndex = 0,
@@ -381,8 +412,8 @@ def kdrt_sample_window(
 def kdrt_sample_classes(
     radii: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     leaf_size: SupportsFloat = 20.0,
     seed: SupportsIndex = 0,
@@ -395,11 +426,11 @@ def kdrt_sample_classes(
     progress: _Progress = None,
 ) -> Points: ...
 def kdrt_stream(
-    visit: Callable[[NDArray[np.float32]], object],
+    visit: Callable[[_Floats], object],
     radius: SupportsFloat,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     leaf_size: SupportsFloat = 20.0,
     seed: SupportsIndex = 0,
@@ -411,8 +442,8 @@ def kdrt_stream(
 def maximal_sample(
     radius: SupportsFloat,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     seed: SupportsIndex = 0,
     threads: SupportsIndex = 0,
@@ -423,18 +454,18 @@ def kdrt_merge(
     radius: SupportsFloat,
     *,
     fixed: Optional[ArrayLike] = None,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     seed: SupportsIndex = 0,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
 def psp_sample(
-    mesh: Mesh,
-    radius: SupportsFloat = 0.0,
+    mesh: _MeshLike,
+    radius: Optional[SupportsFloat] = 0.0,
     *,
-    count: SupportsIndex = 0,
+    count: Optional[SupportsIndex] = 0,
     order: _Order = "any",
     quotient: Optional[SupportsFloat] = None,
     iterations: Optional[SupportsIndex] = None,
@@ -443,12 +474,12 @@ def psp_sample(
     priority: Literal["squareness", "projector"] = "squareness",
     given_positions: Optional[ArrayLike] = None,
     given_clearances: Optional[ArrayLike] = None,
-    cosine: SupportsFloat = -1.0,
+    cosine: Optional[SupportsFloat] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
 def psp_sample_classes(
-    mesh: Mesh,
+    mesh: _MeshLike,
     radii: ArrayLike,
     *,
     masks: Optional[ArrayLike] = None,
@@ -457,12 +488,12 @@ def psp_sample_classes(
     seed: SupportsIndex = 0,
     given_positions: Optional[ArrayLike] = None,
     given_clearances: Optional[ArrayLike] = None,
-    cosine: SupportsFloat = -1.0,
+    cosine: Optional[SupportsFloat] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
 def psp_adaptive_sample(
-    mesh: Mesh,
+    mesh: _MeshLike,
     vertex_radii: ArrayLike,
     *,
     order: _Order = "any",
@@ -470,32 +501,32 @@ def psp_adaptive_sample(
     seed: SupportsIndex = 0,
     given_positions: Optional[ArrayLike] = None,
     given_clearances: Optional[ArrayLike] = None,
-    cosine: SupportsFloat = -1.0,
+    cosine: Optional[SupportsFloat] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
 def psp_adaptive_with_density(
-    mesh: Mesh,
+    mesh: _MeshLike,
     density: ArrayLike,
     *,
-    radius: SupportsFloat = 0.0,
-    count: SupportsFloat = 0.0,
+    radius: Optional[SupportsFloat] = 0.0,
+    count: Optional[SupportsFloat] = 0.0,
     texture: Optional[ArrayLike] = None,
     order: _Order = "any",
     quotient: Optional[SupportsFloat] = None,
     seed: SupportsIndex = 0,
     given_positions: Optional[ArrayLike] = None,
     given_clearances: Optional[ArrayLike] = None,
-    cosine: SupportsFloat = -1.0,
+    cosine: Optional[SupportsFloat] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
 def dcr_relax(
     positions: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     neighbourhood: Literal["delaunay", "nearest"] = "delaunay",
     method: Literal["momentum", "thesis"] = "momentum",
     max_iterations: SupportsIndex = 100,
@@ -516,9 +547,9 @@ def dcr_relax_classes(
     positions: ArrayLike,
     classes: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     max_iterations: SupportsIndex = 100,
     tolerance: Optional[SupportsFloat] = None,
     seed: SupportsIndex = 0,
@@ -529,9 +560,9 @@ def dcr_relax_density(
     positions: ArrayLike,
     density: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     max_iterations: SupportsIndex = 100,
     tolerance: Optional[SupportsFloat] = None,
     seed: SupportsIndex = 0,
@@ -542,15 +573,15 @@ def dcr_scatter(
     density: ArrayLike,
     count: SupportsIndex,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     seed: SupportsIndex = 0,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
 def dcr_surface_relax(
-    mesh: Mesh,
+    mesh: _MeshLike,
     triangles: ArrayLike,
     barycentrics: ArrayLike,
     *,
@@ -561,7 +592,7 @@ def dcr_surface_relax(
     progress: _Progress = None,
 ) -> Points: ...
 def dcr_remesh(
-    mesh: Mesh,
+    mesh: _MeshLike,
     triangles: ArrayLike,
     barycentrics: ArrayLike,
     *,
@@ -571,8 +602,8 @@ def dcr_remesh(
 def thin(
     positions: ArrayLike,
     *,
-    radius: SupportsFloat = 0.0,
-    count: SupportsIndex = 0,
+    radius: Optional[SupportsFloat] = 0.0,
+    count: Optional[SupportsIndex] = 0,
     order: _Order = "any",
     seed: SupportsIndex = 0,
     threads: SupportsIndex = 0,
@@ -581,18 +612,18 @@ def thin(
 def plane_smallest_distance(
     positions: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> float: ...
 def plane_covering_radius(
     positions: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> float: ...
@@ -606,14 +637,14 @@ def plane_coverage(
     positions: ArrayLike,
     radius: SupportsFloat,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> CoverageReport: ...
 def mesh_coverage(
-    mesh: Mesh,
+    mesh: _MeshLike,
     positions: ArrayLike,
     radius: SupportsFloat,
     *,
@@ -621,7 +652,7 @@ def mesh_coverage(
     progress: _Progress = None,
 ) -> CoverageReport: ...
 def mesh_uncovered_fraction(
-    mesh: Mesh,
+    mesh: _MeshLike,
     positions: ArrayLike,
     radius: SupportsFloat,
     *,
@@ -633,9 +664,9 @@ def mesh_uncovered_fraction(
 def plane_measure(
     positions: ArrayLike,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> PlaneReport: ...
@@ -644,9 +675,9 @@ def plane_nearest_histogram(
     reach: SupportsFloat,
     bins: SupportsIndex,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> NDArray[np.uint64]: ...
@@ -655,9 +686,9 @@ def plane_radial_distribution(
     reach: SupportsFloat,
     bins: SupportsIndex,
     *,
-    domain_min: _Numbers = [0.0, 0.0],
-    domain_max: _Numbers = [1.0, 1.0],
-    boundary: _Boundary = "periodic",
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> NDArray[np.float64]: ...

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Builds a wheel, checks what is in it, installs it in a clean environment and runs the tests there.
 #
-#   bindings/python/test.sh           a wheel for this machine, hardly optimised
+#   bindings/python/test.sh           a wheel for this machine, hardly optimised, from the source distribution
 #   bindings/python/test.sh --long    the wheels that are published: for manylinux2014 on x86-64 and arm64, small enough;
-#                                     the tests on arm64 run under qemu
+#                                     the tests on arm64 run under qemu; and pip, which finds the source distribution by
+#                                     the name of the package
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -24,9 +25,38 @@ build() { PATH=$work/tools/bin:$PATH maturin build --locked --quiet --target-dir
 # ARCHITECTURE: the wheel for it.
 wheel_for() { echo "$wheels"/azulejo_sampling-*-cp39-abi3-*"$1".whl; }
 
+# The source distribution, in a directory of its own.
+source_distribution() {
+    rm -rf "$work/sdist"
+    PATH=$work/tools/bin:$PATH maturin sdist --out "$work/sdist"
+}
+
+# A wheel of what the source distribution holds, and nothing else.
+build_from_source_distribution() {
+    rm -rf "$work/source"
+    mkdir "$work/source"
+    tar --extract --gzip --file "$work"/sdist/azulejo_sampling-*.tar.gz --directory "$work/source" --strip-components 1
+    (cd "$work/source" && build --profile smoke)
+}
+
+# What users of a machine without a wheel do: pip finds the source by name and builds it.
+install_by_name() {
+    python3 -m venv --clear "$work/by-name"
+    "$work/by-name/bin/pip" install --quiet --disable-pip-version-check maturin numpy --constraint tools.txt
+    PATH=$work/by-name/bin:$PATH CARGO_TARGET_DIR=$work/by-name/cargo MATURIN_PEP517_ARGS="--profile smoke --locked" \
+        "$work/by-name/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation --no-index \
+        --find-links "$work/sdist" azulejo-sampling
+    "$work/by-name/bin/python" -c 'import azulejo; assert len(azulejo.kdrt_sample(0.1)) > 60'
+}
+
 check_contents() { # WHEEL
     local name
     "$work/tools/bin/python" -m zipfile --list "$1" >"$work/contents"
+    "$work/tools/bin/python" -m zipfile --extract "$1" "$work/unzipped"
+    for name in LICENSE-MIT LICENSE-APACHE; do
+        cmp "$root/$name" "$work"/unzipped/*.dist-info/licenses/licenses/$name
+    done
+    rm -r "$work/unzipped"
     for name in azulejo/__init__.py azulejo/__init__.pyi azulejo/py.typed azulejo/azulejo.abi3.so; do
         grep -q "^$name " "$work/contents" || { echo "test.sh: $1 lacks $name" >&2; return 1; }
     done
@@ -91,7 +121,8 @@ rm -rf "$wheels"
 tools tools.txt
 case "${1:-}" in
 "")
-    build --profile smoke
+    source_distribution
+    build_from_source_distribution
     run_tests "$(wheel_for "")"
     ;;
 --long)
@@ -100,9 +131,11 @@ case "${1:-}" in
     run_tests "$(wheel_for x86_64)"
     publish aarch64
     run_tests_on_arm64 "$(wheel_for aarch64)"
+    source_distribution
+    install_by_name
     ;;
 *)
-    sed -n '4,6s/^# *//p' "$0" >&2
+    sed -n '4,8s/^# *//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -57,7 +57,7 @@ impl Analyze {
             return Err(Error::InvalidArgument { argument: "--radius", reason });
         }
         let text = match &self.mesh {
-            Some(mesh) => self.surface(context, mesh, &self.read(|path| self.input.read_samples(path))?)?,
+            Some(mesh) => self.surface(context, mesh)?,
             None => self.plane(context, &self.read(|path| self.input.read_plane(path, ON_MESH))?)?,
         };
         print(text.as_bytes())
@@ -91,8 +91,9 @@ impl Analyze {
         })
     }
 
-    fn surface(&self, context: &Context, path: &Path, sets: &[Set<SampleSet>]) -> Result<String> {
+    fn surface(&self, context: &Context, path: &Path) -> Result<String> {
         let mesh = input::mesh(path)?;
+        let sets: &[Set<SampleSet>] = &self.read(|path| self.input.read_samples(path, mesh.origin()))?;
         let measured = surface::Measured::of(context, &mesh, sets, self.radius)?;
         if let Some(directory) = &self.plots {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();

@@ -2,7 +2,7 @@
 //!
 //! | format | plane | surface | domain |
 //! |---|---|---|---|
-//! | PLY | `x y` and perhaps `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
+//! | PLY | `x y z`, z being 0, and perhaps `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
 //! | NPY | array of `(n, 2)` floats; structured array of `x y` and `rank` or `class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
 //! | CSV | columns `x,y` and perhaps `rank`, `class` under a header | all columns of PLY under a header | - |
 //! | XYZ | lines `x y 0` | lines `x y z nx ny nz` | - |
@@ -25,7 +25,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use azulejo::{Domain, Error, Result};
+use azulejo::{Centred, Domain, Error, Result};
 use clap::{Args, ValueEnum};
 
 use crate::input;
@@ -108,9 +108,9 @@ impl Input {
         self.read(path)?.into_plane(instead).map_err(|reason| format_error(path, reason))
     }
 
-    /// Reads samples in space.
-    pub fn read_samples(&self, path: &Path) -> Result<SampleSet> {
-        self.read(path)?.into_samples().map_err(|reason| format_error(path, reason))
+    /// Reads samples in space, relative to the origin of their mesh.
+    pub fn read_samples(&self, path: &Path, origin: [f64; 3]) -> Result<SampleSet> {
+        self.read(path)?.into_samples(origin).map_err(|reason| format_error(path, reason))
     }
 
     /// Reads a cloud of points with all that is known of them.
@@ -139,7 +139,7 @@ impl Input {
             }
         };
         let records = records.map_err(|reason| format_error(path, reason))?;
-        Ok(Cloud { format, positions, records })
+        Ok(Cloud { format, positions: Centred::of(&positions), records })
     }
 
     /// Reads points, of which there is at least one, all finite.
@@ -175,23 +175,28 @@ impl Input {
     }
 }
 
-/// Reads samples in space that are given, in a format by their extension.
-pub fn read_given(path: &Path) -> Result<SampleSet> {
+/// Reads samples in space that are given, in a format by their extension, relative to the origin of their mesh.
+pub fn read_given(path: &Path, origin: [f64; 3]) -> Result<SampleSet> {
     let dimensions = (Format::of(path)? == Format::Raw).then_some(3);
-    Input { input_format: None, dimensions }.read_samples(path)
+    Input { input_format: None, dimensions }.read_samples(path, origin)
 }
 
 /// Points of a file, some of which are to be written as they stand in it.
 pub struct Cloud {
     format: Format,
-    positions: Vec<[f32; 3]>,
+    positions: Centred<3>,
     records: Records,
 }
 
 impl Cloud {
-    /// The positions in space, in the plane z = 0 where there is no z.
+    /// The positions in space, in the plane z = 0 where there is no z, near an origin of their own.
     pub fn positions(&self) -> &[[f32; 3]] {
-        &self.positions
+        &self.positions.positions
+    }
+
+    /// The radius by which two points as rounded are at least `radius` apart as they stand in the file.
+    pub fn lengthened(&self, radius: f64) -> f64 {
+        Centred::<3>::lengthened(radius, self.positions.rounding)
     }
 
     /// Refuses a name with the extension of another format than that of the cloud, which is kept.

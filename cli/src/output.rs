@@ -52,9 +52,12 @@ impl Output {
         Error::Io { path: self.path.clone(), source }
     }
 
-    /// Writes the file; an error leaves no new file behind.
+    /// Writes the file; an error leaves no new file behind. It is no failure if the reader of a pipe stops early.
     pub fn write(&self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<()> {
-        self.try_write(content).map_err(|error| self.error(error))
+        match self.try_write(content) {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe && self.target.is_stream() => Ok(()),
+            written => written.map_err(|error| self.error(error)),
+        }
     }
 
     fn try_write(&self, content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {

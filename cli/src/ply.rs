@@ -1,15 +1,16 @@
-//! PLY files: sets of the plane (`x y`), samples of a surface (`x y z nx ny nz triangle u v`, and `radius` where radii
+//! PLY files: sets of the plane (`x y z`, where z is 0), samples of a surface (`x y z nx ny nz triangle u v`, and `radius` where radii
 //! differ), both with `rank` in progressive order and `class` where there are several; meshes.
 //!
 //! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`: points alone do
 //! not tell the period of a torus. Files without that comment are read too.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use azulejo::mesh::ply::Ply;
 use azulejo::{Boundary, Domain};
 
-use crate::formats::columns::{Column, write_floats};
+use crate::formats::columns::{Column, write_position};
 use crate::formats::plane::PlaneTable;
 use crate::formats::set::{self, Columns, NAMES, PointSet};
 use crate::formats::surface::SurfaceTable;
@@ -25,7 +26,7 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     let mut points = columns.empty_set();
     for i in 0..vertices.count() {
         let at = |problem| format!("vertex {i}: {problem}");
-        let numbers = columns.floats.map(|column| column.map_or(0.0, |column| column[i]) as f32);
+        let numbers = columns.floats.map(|column| column.map_or(0.0, |column| column[i]));
         let triangle = columns.on_mesh().map_or(Ok(0), |column| set::triangle(column[i])).map_err(at)?;
         points.push(numbers, triangle).map_err(at)?;
     }
@@ -33,17 +34,13 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     Ok(points)
 }
 
-/// The positions of the vertices, in the plane z = 0 where there is no z. Floats are taken as they are; of coordinates
-/// that are not floats, such as those of a map in doubles, the differences from the first vertex are rounded.
-pub fn positions(bytes: &[u8]) -> Result<Vec<[f32; 3]>, String> {
+/// The positions of the vertices, in the plane z = 0 where there is no z.
+pub fn positions(bytes: &[u8]) -> Result<Vec<[f64; 3]>, String> {
     let ply = Ply::read(bytes, |element, property| element == "vertex" && ["x", "y", "z"].contains(&property))?;
     let vertices = ply.element("vertex").ok_or("has no vertices")?;
     let [x, y, z] = ["x", "y", "z"].map(|name| vertices.numbers(name));
     let columns = [Some(x.ok_or("vertices have no x")?), Some(y.ok_or("vertices have no y")?), z];
-    let are_floats =
-        columns.iter().flatten().all(|column| column.iter().all(|&x| f64::from(x as f32) == x || !x.is_finite()));
-    let origin = |column: &[f64]| if are_floats { 0.0 } else { column[0] };
-    let position = |i: usize| columns.map(|column| column.map_or(0.0, |column| (column[i] - origin(column)) as f32));
+    let position = |i: usize| columns.map(|column| column.map_or(0.0, |column| column[i]));
     Ok((0..vertices.count()).map(position).collect())
 }
 
@@ -70,10 +67,12 @@ pub fn write_plane(output: &Output, domain: &Domain, table: &PlaneTable) -> azul
         Boundary::Periodic => "periodic",
         Boundary::Bounded => "bounded",
     };
+    // Other programs read no vertices without z.
+    const PROPERTIES: [&str; 3] = ["float x", "float y", "float z"];
     output.write(|writer| {
         let comment = format!("comment domain {x0} {y0} {x1} {y1} {boundary}\n");
-        write_header(writer, &comment, table.points.len(), &["float x", "float y"], table.more_columns())?;
-        table.write_binary(writer)
+        write_header(writer, &comment, table.points.len(), &PROPERTIES, table.more_columns())?;
+        table.write_binary::<3>(writer)
     })
 }
 
@@ -82,18 +81,32 @@ pub fn write_surface(output: &Output, table: &SurfaceTable) -> azulejo::Result<(
     const PROPERTIES: [&str; 9] =
         ["float x", "float y", "float z", "float nx", "float ny", "float nz", "uint triangle", "float u", "float v"];
     output.write(|writer| {
-        write_header(writer, "", table.samples.len(), &PROPERTIES, table.more_columns())?;
+        let properties = PROPERTIES.map(|property| match property {
+            "float x" | "float y" | "float z" if table.has_origin() => property.replace("float", "double"),
+            _ => property.to_owned(),
+        });
+        write_header(writer, "", table.samples.len(), &properties, table.more_columns())?;
         table.write_binary(writer)
     })
 }
 
-/// Writes a triangle mesh, with faces as `vertex_indices`.
-pub fn write_mesh(output: &Output, positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> azulejo::Result<()> {
+/// Writes a triangle mesh, with faces as `vertex_indices`; around an origin, with vertices in doubles.
+pub fn write_mesh(
+    output: &Output,
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    origin: [f64; 3],
+) -> azulejo::Result<()> {
+    let float = if origin == [0.0; 3] { "float" } else { "double" };
     output.write(|writer| {
         writeln!(writer, "ply\nformat binary_little_endian 1.0\nelement vertex {}", positions.len())?;
-        writeln!(writer, "property float x\nproperty float y\nproperty float z\nelement face {}", triangles.len())?;
+        writeln!(
+            writer,
+            "property {float} x\nproperty {float} y\nproperty {float} z\nelement face {}",
+            triangles.len()
+        )?;
         writeln!(writer, "property list uchar uint vertex_indices\nend_header")?;
-        write_floats(writer, positions)?;
+        positions.iter().try_for_each(|&position| write_position(writer, position, origin))?;
         triangles.iter().try_for_each(|triangle| {
             writer.write_all(&[3])?;
             triangle.iter().try_for_each(|index| writer.write_all(&index.to_le_bytes()))
@@ -105,7 +118,7 @@ fn write_header(
     writer: &mut impl Write,
     comment: &str,
     count: usize,
-    properties: &[&str],
+    properties: &[impl Display],
     mut more: impl Iterator<Item = Column>,
 ) -> io::Result<()> {
     write!(writer, "ply\nformat binary_little_endian 1.0\n{comment}element vertex {count}\n")?;

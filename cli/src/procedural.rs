@@ -69,7 +69,7 @@ impl Procedural {
             return Err(Error::InvalidArgument { argument: "--detail", reason });
         }
         let (positions, triangles) = self.shape.make(detail);
-        ply::write_mesh(&output, &positions, &triangles)
+        ply::write_mesh(&output, &positions, &triangles, [0.0; 3])
     }
 }
 

@@ -60,7 +60,11 @@ impl Thin {
             Sequence::Progressive => Order::Progressive,
         };
         let number = self.count.map_or(0, |count| usize::try_from(count).unwrap_or(usize::MAX));
-        let options = Options::default().radius(self.radius.unwrap_or(0.0)).count(number).order(order).seed(self.seed);
+        let options = Options::default()
+            .radius(self.radius.map_or(0.0, |radius| cloud.lengthened(radius)))
+            .count(number)
+            .order(order)
+            .seed(self.seed);
         let start = Instant::now();
         let select = |progress: &azulejo::Progress| thin(context, &options, cloud.positions(), Some(progress));
         let selected = watched("thin", select).map_err(|error| blame(&self.input, error))?;

@@ -8,7 +8,7 @@ mod ply;
 use std::fs;
 
 use common::Workshop;
-use ply::{floats, nearest, points};
+use ply::{flat, nearest, points};
 
 #[test]
 fn plane_samples_of_several_classes() {
@@ -34,7 +34,7 @@ fn plane_samples_of_several_classes() {
     // The other formats have the same rows, and can be read as sets of the plane.
     for (name, more) in [("whole.ply", &[][..]), ("window.ply", &["--window", "0.25", "0.5", "0.75", "1"])] {
         workshop.succeed(&[&set[..], more, &["-o", name]].concat());
-        let (header, found) = floats(&fs::read(workshop.path(name)).unwrap(), 3);
+        let (header, found) = flat(&fs::read(workshop.path(name)).unwrap(), 3);
         assert!(header.contains("property uint class"), "{header}");
         let [min, max] = if more.is_empty() { [[0.0, 0.0], [1.0, 1.0]] } else { [[0.25, 0.5], [0.75, 1.0]] };
         let of_text = |row: &Vec<&str>| [0, 1].map(|axis| row[axis].parse::<f32>().unwrap());
@@ -75,7 +75,7 @@ fn distances_of_classes(rows: &[Vec<f32>]) -> [f64; 3] {
 fn relax_keeps_the_classes_of_a_file_and_spreads_each() {
     let workshop = Workshop::new();
     workshop.succeed(&["plane", "--classes", "0.06,0.06,0.06", "-o", "a.ply"]);
-    let rows = |name: &str| floats(&fs::read(workshop.path(name)).unwrap(), 3);
+    let rows = |name: &str| flat(&fs::read(workshop.path(name)).unwrap(), 3);
     let said = workshop.succeed(&["relax", "a.ply", "--iterations", "60", "-o", "b.ply"]);
     assert!(said.contains(" 60 steps, smallest distance 0.0") && said.contains(", ρ 0."), "{said}");
     let ((header, before), (same, after)) = (rows("a.ply"), rows("b.ply"));

@@ -8,13 +8,13 @@ mod ply;
 use std::fs;
 
 use common::Workshop;
-use ply::{floats, nearest, points};
+use ply::{flat, nearest, points};
 
 #[test]
 fn plane_writes_a_conflict_free_set_and_its_domain() {
     let workshop = Workshop::new();
     let said = workshop.succeed(&["plane", "--radius", "0.05", "-o", "a.ply"]);
-    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    let (header, points) = flat(&fs::read(workshop.path("a.ply")).unwrap(), 2);
     assert!(header.contains("comment domain 0 0 1 1 periodic\n"), "{header}");
     assert!(header.contains(&format!("element vertex {}\n", points.len())));
     assert!((230..330).contains(&points.len()), "{}", points.len());
@@ -47,7 +47,7 @@ fn plane_fills_the_rectangle_that_it_is_given() {
     let arguments = ["plane", "--count", "500", "--domain", "-3", "2", "-1", "3", "--bounded", "--leaf-size", "8"];
     let said = workshop.succeed(&[&arguments[..], &["-o", "a.ply"]].concat());
     assert!(said.starts_with("a.ply: 500 samples, radius 0.0"), "{said}");
-    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    let (header, points) = flat(&fs::read(workshop.path("a.ply")).unwrap(), 2);
     assert!(header.contains("comment domain -3 2 -1 3 bounded\n"), "{header}");
     assert_eq!(points.len(), 500);
     assert!(points.iter().all(|p| (-3.0..-1.0).contains(&p[0]) && (2.0..3.0).contains(&p[1])));
@@ -58,7 +58,7 @@ fn plane_sets_in_progressive_order_are_nested() {
     let workshop = Workshop::new();
     let made = |name: &str, arguments: &[&str]| {
         workshop.succeed(&[&["plane", "--order", "progressive", "-o", name], arguments].concat());
-        floats(&fs::read(workshop.path(name)).unwrap(), 3).1
+        flat(&fs::read(workshop.path(name)).unwrap(), 3).1
     };
     let (few, many) = (made("a.ply", &["--count", "200"]), made("b.ply", &["--count", "2000"]));
     assert!(few.len() == 200 && few == many[..200]);
@@ -79,8 +79,8 @@ fn ranked(workshop: &Workshop, name: &str) -> Vec<[f32; 3]> {
     let row = |row: &[f32]| [row[0], row[1], row[2]];
     match name.rsplit('.').next().unwrap() {
         "ply" => {
-            let (header, rows) = floats(&bytes, 3);
-            assert!(header.contains("property float y\nproperty float rank\nend_header"), "{header}");
+            let (header, rows) = flat(&bytes, 3);
+            assert!(header.contains("property float z\nproperty float rank\nend_header"), "{header}");
             rows.iter().map(|floats| row(floats)).collect()
         }
         "csv" => {
@@ -209,7 +209,7 @@ fn a_window_has_the_samples_that_the_whole_set_has_there() {
     let window = ["--window", "0.25", "0.5", "0.75", "1"];
     workshop.succeed(&[&radius[..], &window, &["-o", "window.ply"]].concat());
     let [(_, whole), (header, part)] =
-        ["whole.ply", "window.ply"].map(|name| floats(&fs::read(workshop.path(name)).unwrap(), 2));
+        ["whole.ply", "window.ply"].map(|name| flat(&fs::read(workshop.path(name)).unwrap(), 2));
     let inside = |point: &&Vec<f32>| (0.25..0.75).contains(&point[0]) && point[1] >= 0.5;
     assert_eq!(part, whole.iter().filter(inside).cloned().collect::<Vec<_>>());
     assert!(part.len() > 1000 && header.contains("comment domain 0.25 0.5 0.75 1 bounded\n"), "{header}");
@@ -225,5 +225,52 @@ fn counts_can_be_written_with_an_exponent() {
     assert!(said.starts_with("a.ply: 1,500 samples, "), "{said}");
     for count in ["1e-1", "2.5", "0e5", "1e99", "inf"] {
         workshop.refuse(&["plane", "--count", count, "-o", "a.ply"], 2);
+    }
+}
+
+#[test]
+fn a_plane_in_a_ply_file_has_a_z_that_other_programs_need() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "a.ply"]);
+    workshop.succeed(&["plane", "--radius", "0.1", "-o", "a.csv"]);
+    let file = std::fs::read(workshop.path("a.ply")).unwrap();
+    let end = b"end_header\n";
+    let start = file.windows(end.len()).position(|part| part == end).unwrap() + end.len();
+    let header = String::from_utf8_lossy(&file[..start]).into_owned();
+    assert!(header.contains("property float x\nproperty float y\nproperty float z\nend_header\n"), "{header}");
+    let rows: Vec<_> = file[start..].as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+    let text = std::fs::read_to_string(workshop.path("a.csv")).unwrap();
+    let expected = text.lines().skip(1).map(|line| format!("{line},0"));
+    assert!(rows.chunks(3).map(|row| format!("{},{},{}", row[0], row[1], row[2])).eq(expected));
+    // It is a set of the plane all the same.
+    workshop.succeed(&["relax", "a.ply", "--iterations", "2", "-o", "b.ply"]);
+    workshop.succeed(&["mesh", "sphere", "-o", "mesh.ply"]);
+    let said = workshop.refuse(&["analyze", "a.ply", "--mesh", "mesh.ply"], 1);
+    assert!(said.contains("holds points in the plane"), "{said}");
+}
+
+#[test]
+fn coordinates_that_floats_would_displace_are_refused_with_the_way_out() {
+    let workshop = Workshop::new();
+    workshop.write("far.csv", "x,y\n500000.3,4649776.7\n500001.1,4649777.2\n500000.9,4649776.1\n");
+    let said =
+        workshop.refuse(&["relax", "far.csv", "--domain", "500000", "4649776", "500002", "4649778", "-o", "b.csv"], 1);
+    assert!(said.contains("floats would displace: subtract 500000") && said.contains("from y first"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_stops_early_is_no_failure() {
+    use std::io::Read;
+    use std::process::Stdio;
+
+    let workshop = Workshop::new();
+    for format in ["csv", "ply", "npy", "raw"] {
+        let mut command = workshop.command(&["plane", "--radius", "0.002", "-o", "-", "--format", format]);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut some = [0; 10];
+        child.stdout.take().unwrap().read_exact(&mut some).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty(), "{format}: {output:?}");
     }
 }

@@ -8,7 +8,7 @@ mod ply;
 use std::fs;
 
 use common::Workshop;
-use ply::floats;
+use ply::{flat, floats};
 
 #[test]
 fn relax_moves_points_apart_and_keeps_their_number_and_domain() {
@@ -19,7 +19,7 @@ fn relax_moves_points_apart_and_keeps_their_number_and_domain() {
         let said = workshop.succeed(&arguments);
         assert!(said.contains(" steps, smallest distance 0.0"), "{said}");
         let [(before, old), (after, new)] =
-            ["a.ply", "b.ply"].map(|name| floats(&fs::read(workshop.path(name)).unwrap(), 2));
+            ["a.ply", "b.ply"].map(|name| flat(&fs::read(workshop.path(name)).unwrap(), 2));
         assert_eq!(before, after);
         assert_ne!(old, new);
     }
@@ -120,7 +120,7 @@ fn points_in_text_with_other_properties_are_read() {
     (0..16).for_each(|i| text += &format!("255 {}.25 {} 2 7 8\n", i / 4, i % 4));
     workshop.write("text.ply", text);
     workshop.succeed(&["relax", "text.ply", "--iterations", "0", "-o", "a.ply"]);
-    let (header, points) = floats(&fs::read(workshop.path("a.ply")).unwrap(), 2);
+    let (header, points) = flat(&fs::read(workshop.path("a.ply")).unwrap(), 2);
     assert!(header.contains("comment domain 0 0 4 4 bounded\n"), "{header}");
     assert_eq!((points.len(), &points[6][..]), (16, &[2.0, 1.25][..]));
 }

@@ -171,10 +171,10 @@ fn dots_of_inks_keep_apart() {
     let bytes = fs::read(workshop.path("a.ply")).unwrap();
     let body = bytes.windows(11).position(|window| window == b"end_header\n").unwrap() + 11;
     let dots: Vec<([f64; 2], u32)> = bytes[body..]
-        .chunks_exact(12)
+        .chunks_exact(16)
         .map(|dot| {
             let word = |i: usize| dot[4 * i..4 * i + 4].try_into().unwrap();
-            ([0, 1].map(|axis| f32::from_le_bytes(word(axis)).into()), u32::from_le_bytes(word(2)))
+            ([0, 1].map(|axis| f32::from_le_bytes(word(axis)).into()), u32::from_le_bytes(word(3)))
         })
         .collect();
     assert!((1450..=1550).contains(&dots.len()), "{said}");

@@ -418,3 +418,60 @@ fn both_sides_of_a_thin_wall_are_sampled_with_a_cosine() {
     };
     assert!(10 * count(&["--cosine", "0.5"]) > 18 * count(&[]));
 }
+
+/// A pyramid far from the origin, as OBJ, and its height there.
+const FAR: &str = "v 500000.25 4649776 7\nv 500001.75 4649776 7\nv 500001 4649777.25 7\nv 500001 4649776.5 8.125\n\
+                   f 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+#[test]
+fn samples_of_a_mesh_far_from_the_origin_are_written_in_its_frame() {
+    let workshop = Workshop::new();
+    workshop.write("far.obj", FAR);
+    for (name, count) in [("a.ply", 9), ("a.csv", 9), ("a.npy", 9), ("a.xyz", 6)] {
+        workshop.succeed(&["surface", "far.obj", "--radius", "0.05", "-o", name]);
+        let text = workshop.succeed(&["analyze", name, "--mesh", "far.obj", "--json"]);
+        let smallest = text.split("\"smallest_distance\":").nth(1).unwrap().split([',', '}']).next().unwrap().trim();
+        assert!((0.05 - 1e-6..0.06).contains(&smallest.parse::<f64>().unwrap()), "{name}: {smallest}");
+        let gaps = text.split("\"covering_radius\":").nth(1).unwrap().split([',', '}']).next().unwrap().trim();
+        assert!(gaps.parse::<f64>().unwrap() <= 0.05 + 1e-5, "{name}: {gaps}");
+        assert!(count == 6 || workshop.run(&["relax", name, "--mesh", "far.obj", "-o", "b.csv"]).status.success());
+    }
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    for line in text.lines().skip(1) {
+        let place: Vec<f64> = line.split(',').take(3).map(|word| word.parse().unwrap()).collect();
+        assert!((500000.0..500002.0).contains(&place[0]) && (4649775.9..4649777.3).contains(&place[1]), "{line}");
+    }
+    let header = fs::read(workshop.path("a.ply")).unwrap();
+    assert!(
+        String::from_utf8_lossy(&header[..300]).contains("property double x\nproperty double y\nproperty double z\n")
+    );
+    // Around a given sample, in the same frame.
+    workshop.write("given.csv", "x,y,z\n500001,4649776.5,8.125\n");
+    workshop.succeed(&[
+        "surface",
+        "far.obj",
+        "--radius",
+        "0.05",
+        "--given",
+        "given.csv",
+        "--clearance",
+        "0.5",
+        "-o",
+        "c.csv",
+    ]);
+    for line in fs::read_to_string(workshop.path("c.csv")).unwrap().lines().skip(1) {
+        let place: Vec<f64> = line.split(',').take(3).map(|word| word.parse().unwrap()).collect();
+        let squared: f64 = std::iter::zip(&place, [500001.0, 4649776.5, 8.125]).map(|(a, b)| (a - b) * (a - b)).sum();
+        assert!(squared.sqrt() >= 0.5 - 1e-6, "{line}");
+    }
+}
+
+#[test]
+fn a_file_of_another_format_is_said_to_be_one() {
+    let workshop = Workshop::new();
+    for (name, content) in [("ball.glb", "glTF\u{2}"), ("ball.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")] {
+        workshop.write(name, content);
+        let said = workshop.refuse(&["surface", name, "--radius", "0.1", "-o", "a.ply"], 1);
+        assert_eq!(said, format!("error: {name}: holds no mesh in a format that is read: OBJ, PLY, STL\n"));
+    }
+}

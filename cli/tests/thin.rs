@@ -91,3 +91,30 @@ fn what_cannot_be_thinned_is_refused() {
     workshop.succeed(&["thin", "points.raw", "--dimensions", "2", "--count", "1", "-o", "a.raw"]);
     assert_eq!(fs::metadata(workshop.path("a.raw")).unwrap().len(), 8);
 }
+
+#[test]
+fn doubles_far_from_the_origin_keep_the_radius() {
+    let workshop = Workshop::new();
+    // A lattice of 0.5 at (500000, 4649776), moved here and there by less than floats can tell.
+    let place =
+        |i: usize| [500000.0 + 0.5 * (i % 30) as f64 + 0.011 * (i % 7) as f64, 4649776.0 + 0.5 * (i / 30) as f64];
+    let rows: String = (0..600).map(|i| format!("{},{}\n", place(i)[0], place(i)[1])).collect();
+    workshop.write("far.csv", format!("x,y\n{rows}"));
+    let ply = "ply\nformat ascii 1.0\nelement vertex 600\nproperty double x\nproperty double y\nend_header\n";
+    workshop.write("far.ply", format!("{ply}{}", rows.replace(',', " ")));
+    for name in ["far.csv", "far.ply"] {
+        let out = name.replace("far", "out");
+        workshop.succeed(&["thin", name, "--radius", "0.52", "-o", &out]);
+        let text = fs::read_to_string(workshop.path(&out)).unwrap();
+        let numbers = text.lines().filter(|line| line.starts_with("500"));
+        let kept: Vec<[f64; 2]> = numbers
+            .map(|line| {
+                line.split([',', ' ']).map(|word| word.parse().unwrap()).collect::<Vec<f64>>().try_into().unwrap()
+            })
+            .collect();
+        let distance = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let pairs = || kept.iter().enumerate().flat_map(|(i, a)| kept[..i].iter().map(move |b| distance(a, b)));
+        assert!(kept.len() > 150 && pairs().all(|d| d >= 0.52), "{name}");
+        assert!((0..600).all(|i| kept.iter().any(|at| distance(at, &place(i)) < 0.52 + 1e-4)), "{name}");
+    }
+}

@@ -293,6 +293,10 @@ azulejo_status azulejo_mesh_create(const float *positions,
 /// in the order of the faces. Vertices keep the order of the file; STL facets have three each,
 /// which are not merged. Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read; a
 /// corner without one gets a zero normal (see azulejo_mesh_with_normals). All else is ignored.
+///
+/// Coordinates in text or doubles, so far from the origin that floats would displace them by more
+/// than a millionth of the mesh's size, are made relative to an origin of the mesh, which
+/// azulejo_mesh_origin returns: so georeferenced files keep their shape. It is zero otherwise.
 /// - path: the file name, terminated by a NUL, in the encoding of the system, on Windows in UTF-8.
 /// - O(size of the file), on the calling thread, block by block.
 /// - Errors: AZULEJO_ERROR_IO if the file cannot be read; AZULEJO_ERROR_FORMAT if it is invalid, or
@@ -352,7 +356,7 @@ azulejo_status azulejo_mesh_deform(const azulejo_mesh *mesh,
 /// azulejo_mesh_deform each sample goes with its triangle. The result has normals, triangles and
 /// barycentrics, in the same order. O(count).
 /// - triangles: one for each place. Triangles without area and masked triangles are allowed.
-/// - barycentrics: u v of each place.
+/// - barycentrics: u v of each place, inside its triangle.
 azulejo_status azulejo_mesh_points(const azulejo_mesh *mesh,
                                    const uint32_t *triangles,
                                    const float *barycentrics,
@@ -377,6 +381,11 @@ const uint32_t *azulejo_mesh_indices(const azulejo_mesh *mesh);
 /// The area of all triangles that no mask leaves out. A maximal set of n samples has a radius of
 /// about sqrt(0.69656 * area / n), if that is small compared with the features of the surface.
 double azulejo_mesh_area(const azulejo_mesh *mesh);
+
+/// Writes to `origin`, x y z, what the positions of the mesh and of its samples are relative to, in
+/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for other meshes, and
+/// for NULL.
+void azulejo_mesh_origin(const azulejo_mesh *mesh, double *origin);
 
 /// Frees the mesh; its memory is released once no psp handle uses it any more.
 void azulejo_mesh_free(azulejo_mesh *mesh);

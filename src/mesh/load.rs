@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Cursor;
 use std::path::Path;
 
+use crate::centred::Centred;
 use crate::error::{Error, Result};
 use crate::mesh::source::{Input, Source};
 use crate::mesh::surface::Mesh;
@@ -17,6 +18,9 @@ impl Mesh {
     /// zero. Points, lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL
     /// facets, and STL vertices are not merged. Memory stays proportional to the size of the file, whatever its header
     /// claims.
+    ///
+    /// Coordinates that a file has in text or doubles, so far from the origin that floats would displace them by more than
+    /// a millionth of the mesh's size, are moved to an [origin](Mesh::origin), for which the file is read once more.
     ///
     /// A file is read block by block, in one pass, and never in memory as a whole: O(size). The exception is an OBJ
     /// file with rare syntax, such as continued lines, or with an error; that takes longer as well.
@@ -50,19 +54,56 @@ impl Mesh {
 fn read(path: &Path, input: &mut dyn Input, length: u64) -> Result<Mesh> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     let mut source = Source::new(input, length);
-    let soup = match extension.as_deref() {
-        Some("obj") => obj::parse(&mut source),
-        Some("ply") => ply::parse(&mut source),
-        Some("stl") => stl::parse(&mut source),
-        _ if ply::is_likely(&mut source) => ply::parse(&mut source),
-        _ if stl::is_likely(&mut source) => stl::parse(&mut source),
-        _ => obj::parse(&mut source),
+    let (parse, doubles): (Parse<Soup>, Parse<Vec<[f64; 3]>>) = match extension.as_deref() {
+        Some("obj") => (obj::parse, obj::doubles),
+        Some("ply") => (ply::parse, ply::doubles),
+        Some("stl") => (stl::parse, stl::doubles),
+        _ if ply::is_likely(&mut source) => (ply::parse, ply::doubles),
+        _ if stl::is_likely(&mut source) => (stl::parse, stl::doubles),
+        _ => (obj::parse, obj::doubles),
     };
-    if let Some(source) = source.failure() {
-        return Err(Error::Io { path: path.to_owned(), source });
+    let mut soup = passed(path, source, parse)?;
+    if soup.triangles.is_empty() && !matches!(extension.as_deref(), Some("obj" | "ply" | "stl")) {
+        return Err(format_error(path, "holds no mesh in a format that is read: OBJ, PLY, STL".to_owned()));
     }
-    let format_error = |reason| Error::Format { path: path.to_owned(), reason };
-    soup.map_err(format_error).and_then(|soup| checked(soup).map_err(|error| format_error(error.to_string())))
+    let mut origin = [0.0; 3];
+    if is_far(&soup.positions) {
+        input.rewind().map_err(|source| Error::Io { path: path.to_owned(), source })?;
+        let centred = Centred::of(&passed(path, Source::new(input, length), doubles)?);
+        (soup.positions, origin) = (centred.positions, centred.origin);
+    }
+    let mesh = checked(soup).map_err(|error| format_error(path, error.to_string()))?;
+    Ok(mesh.with_origin(origin))
+}
+
+type Parse<T> = fn(&mut Source) -> std::result::Result<T, String>;
+
+/// The contents of a file, in one pass.
+fn passed<T>(path: &Path, mut source: Source, parse: Parse<T>) -> Result<T> {
+    let contents = parse(&mut source);
+    match source.failure() {
+        Some(source) => Err(Error::Io { path: path.to_owned(), source }),
+        None => contents.map_err(|reason| format_error(path, reason)),
+    }
+}
+
+fn format_error(path: &Path, reason: String) -> Error {
+    Error::Format { path: path.to_owned(), reason }
+}
+
+/// True if these floats may have been displaced far enough by rounding for another look at the file.
+fn is_far(positions: &[[f32; 3]]) -> bool {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for position in positions {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(position[axis]);
+            high[axis] = high[axis].max(position[axis]);
+        }
+    }
+    let extent = (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis])).fold(0.0, f64::max);
+    let largest = low.into_iter().chain(high).fold(0f32, |largest, x| largest.max(x.abs()));
+    // A rounding is at most 2^-24 of the coordinate; the extent is that of the doubles up to two of them.
+    f64::from(largest) > 8.0 * extent
 }
 
 /// Checks the contents of a file. A normal that is not finite counts as none.

@@ -35,6 +35,20 @@ pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
     }
 }
 
+/// The vertices of a file that [`parse`] has read, in doubles.
+pub(super) fn doubles(source: &mut Source) -> Result<Vec<[f64; 3]>, String> {
+    let vertex = |(line, content): (usize, Cow<[u8]>)| {
+        let mut words = words(&content);
+        if words.next() != Some(VERTICES.keyword) {
+            return None;
+        }
+        let mut next = || words.next().and_then(number);
+        let vertex = (|| Some([next()?, next()?, next()?]))();
+        Some(vertex.ok_or_else(|| format!("line {line}: a vertex without three numbers")))
+    };
+    statements(&source.whole()).filter_map(vertex).collect()
+}
+
 /// In place of the normal of a corner that has none.
 const NONE: u32 = u32::MAX;
 

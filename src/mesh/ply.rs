@@ -347,6 +347,25 @@ pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
     Ok(soup)
 }
 
+/// The positions of the vertices, in doubles, or the defect of the file.
+pub(super) fn doubles(source: &mut Source) -> Result<Vec<[f64; 3]>, String> {
+    let (header, mut body) = open(source)?;
+    let mut positions = Vec::new();
+    for definition in header.elements.values() {
+        if definition.name == "vertex" {
+            let position = vector(definition, POSITION).ok_or_else(|| lacks(definition, &POSITION))?;
+            body.reserve(definition, &mut positions)?;
+            body.read(definition, |row| {
+                positions.push(position.map(|property| row.numbers[property]));
+                Ok(())
+            })?;
+        } else {
+            body.read(definition, |_| Ok(()))?;
+        }
+    }
+    Ok(positions)
+}
+
 /// The numbers of the properties that are the coordinates of a vector; `None` if one is missing.
 fn vector(definition: &ElementDef, names: [&str; 3]) -> Option<[usize; 3]> {
     let number = |name| {

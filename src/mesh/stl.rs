@@ -8,7 +8,7 @@
 
 use crate::mesh::load::Soup;
 use crate::mesh::source::Source;
-use crate::mesh::text::{next_vector, shown, skip_blanks, split_line, split_word};
+use crate::mesh::text::{Float, next_vector, shown, skip_blanks, split_line, split_word};
 
 /// The size of a header of any content, which the number of facets follows.
 const HEADER: usize = 80;
@@ -25,15 +25,28 @@ pub(super) fn is_likely(source: &mut Source) -> bool {
 
 /// Vertices and triangles, or the defect of the file.
 pub(super) fn parse(source: &mut Source) -> Result<Soup, String> {
-    let size = source.length();
-    let start = source.at_least(PREAMBLE);
-    // Headers of binary files, too, may begin with "solid"; the size decides.
-    let positions = match facet_count(start) {
-        Some(count) if has_size(size, count) || !begins_as_text(start) => binary(source, count)?,
-        _ => text(source)?,
+    let positions = match facets(source) {
+        Some(count) => binary(source, count)?,
+        None => text(source)?,
     };
     let triangles = (0..positions.len() as u32 / 3).map(|facet| [3 * facet, 3 * facet + 1, 3 * facet + 2]);
     Ok(Soup { triangles: triangles.collect(), positions, ..Default::default() })
+}
+
+/// The vertices of all facets in doubles, which only a text has, or the defect of the file.
+pub(super) fn doubles(source: &mut Source) -> Result<Vec<[f64; 3]>, String> {
+    match facets(source) {
+        Some(count) => Ok(binary(source, count)?.into_iter().map(|position| position.map(f64::from)).collect()),
+        None => text(source),
+    }
+}
+
+/// The number of facets of a binary file; `None` for a text.
+fn facets(source: &mut Source) -> Option<u32> {
+    let size = source.length();
+    let start = source.at_least(PREAMBLE);
+    // Headers of binary files, too, may begin with "solid"; the size decides.
+    facet_count(start).filter(|&count| has_size(size, count) || !begins_as_text(start))
 }
 
 fn begins_as_text(start: &[u8]) -> bool {
@@ -71,7 +84,7 @@ fn binary(source: &mut Source, count: u32) -> Result<Vec<[f32; 3]>, String> {
 }
 
 /// The vertices of all facets of all solids.
-fn text(source: &mut Source) -> Result<Vec<[f32; 3]>, String> {
+fn text<T: Float + Copy + Default>(source: &mut Source) -> Result<Vec<[T; 3]>, String> {
     let (mut positions, mut number) = (Vec::new(), 0);
     while let Some(lines) = source.whole_lines() {
         let (count, mut rest) = (lines.len(), lines);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
+use crate::centred::Centred;
 use crate::check;
 use crate::error::{Error, Result};
 use crate::mesh::kept::Kept;
@@ -35,6 +36,8 @@ pub struct Mesh {
     mask: Option<Arc<Vec<bool>>>,
     area: f64,
     bounds: ([f32; 3], [f32; 3]),
+    /// See [`Mesh::origin`].
+    origin: [f64; 3],
     /// The data that depend on triangles and mask.
     kept: Arc<Kept>,
 }
@@ -58,13 +61,30 @@ impl Mesh {
             return Err(Error::invalid("indices", "0 triangles; at least one is needed"));
         }
         let (positions, triangles) = (Arc::new(positions), Arc::new(triangles));
-        let (area, bounds, kept) = Default::default();
-        let mesh = Self { positions, triangles, normals: None, mask: None, area, bounds, kept };
+        let (area, bounds, origin, kept) = Default::default();
+        let mesh = Self { positions, triangles, normals: None, mask: None, area, bounds, origin, kept };
         let mesh = mesh.measured();
         if mesh.area <= 0.0 {
             return Err(Error::invalid("indices", "the triangles have no area"));
         }
         Ok(mesh)
+    }
+
+    /// [`Mesh::new`] for positions in doubles, which are moved to an [origin](Mesh::origin) where floats would displace
+    /// them by more than a millionth of the mesh's size ([`Centred`]). O(n).
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    pub fn from_doubles(positions: &[[f64; 3]], triangles: Vec<[u32; 3]>) -> Result<Self> {
+        let Centred { positions, origin, .. } = Centred::of(positions);
+        Ok(Self::new(positions, triangles)?.with_origin(origin))
+    }
+
+    /// The mesh with an origin: the place in the caller's frame that its positions are relative to. Nothing is moved, and
+    /// no result depends on it.
+    pub fn with_origin(mut self, origin: [f64; 3]) -> Self {
+        self.origin = origin;
+        self
     }
 
     /// The mesh with normals of the caller's, in place of its own: of any length, one for each vertex,
@@ -82,7 +102,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with its vertices moved: triangles and mask stay, normals go. O(n).
+    /// The mesh with its vertices moved: triangles, mask and origin stay, normals go. O(n).
     ///
     /// # Errors
     /// [`Error::InvalidArgument`] for `positions` that are of another number than the vertices, or not finite, and
@@ -96,7 +116,8 @@ impl Mesh {
         check::finite("positions", "vertex", &positions)?;
         let (triangles, mask) = (self.triangles.clone(), self.mask.clone());
         let (area, bounds, kept) = Default::default();
-        let mesh = Self { positions: Arc::new(positions), triangles, normals: None, mask, area, bounds, kept };
+        let (positions, origin) = (Arc::new(positions), self.origin);
+        let mesh = Self { positions, triangles, normals: None, mask, area, bounds, origin, kept };
         let mesh = mesh.measured();
         if mesh.area <= 0.0 && self.area > 0.0 {
             return Err(Error::invalid("positions", "the triangles have no area"));
@@ -148,6 +169,13 @@ impl Mesh {
     /// The vertices.
     pub fn positions(&self) -> &[[f32; 3]] {
         &self.positions
+    }
+
+    /// The place in the frame of a file, or of doubles that a mesh was made from, that positions are relative to: those
+    /// of vertices, and of samples of the mesh. Zero unless these lie so far from the origin that floats would displace
+    /// them.
+    pub fn origin(&self) -> [f64; 3] {
+        self.origin
     }
 
     /// The vertices of each triangle, counter-clockwise seen from the front.
@@ -230,11 +258,11 @@ impl Mesh {
     /// Samples at places of the caller's, evaluated with the rounding of every sampler: on the mesh that they were made
     /// on the same floats come back, on a [deformed](Mesh::deformed) one each sample goes with its triangle. O(n).
     ///
-    /// Triangles may have no area, or be left out by a mask; barycentrics may lie outside of the triangle.
+    /// Triangles may have no area, or be left out by a mask.
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are of another number
-    /// or not finite.
+    /// [`Error::InvalidArgument`] for `triangles` that do not exist, and for `barycentrics` that are of another number,
+    /// not finite, or outside of the triangle by more than a millionth.
     pub fn samples_at(&self, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Result<Points<3>> {
         if barycentrics.len() != triangles.len() {
             let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
@@ -242,6 +270,7 @@ impl Mesh {
         }
         check::triangles(triangles, self.triangles.len())?;
         check::finite("barycentrics", "sample", barycentrics)?;
+        check::barycentrics(barycentrics)?;
         Ok(self.samples(triangles.to_vec(), barycentrics.to_vec()))
     }
 

@@ -51,8 +51,8 @@ pub(super) fn next_number<T: Float>(text: &[u8]) -> Result<(T, &[u8]), &[u8]> {
 
 /// The next three words of a line as numbers, and the text after them.
 #[inline]
-pub(super) fn next_vector(mut text: &[u8]) -> Result<([f32; 3], &[u8]), &[u8]> {
-    let mut vector = [0.0; 3];
+pub(super) fn next_vector<T: Float + Copy + Default>(mut text: &[u8]) -> Result<([T; 3], &[u8]), &[u8]> {
+    let mut vector = [T::default(); 3];
     for x in &mut vector {
         (*x, text) = next_number(text)?;
     }

@@ -146,4 +146,5 @@ fn samples_go_with_their_triangles_to_a_deformed_mesh() {
     assert_eq!(refused(&[0], &[]), "barycentrics: there are 0, and 1 triangles");
     assert!(refused(&[u32::MAX], &[[0.0; 2]]).starts_with("triangles: [0] is 4294967295"));
     assert_eq!(refused(&[0], &[[0.0, f32::NAN]]), "barycentrics: sample 0 is [0.0, NaN], not finite");
+    assert_eq!(refused(&[0, 0], &[[0.0, 1.0], [2.0, 2.0]]), "barycentrics: [1] is (2, 2), outside the triangle");
 }

@@ -385,3 +385,92 @@ fn what_is_no_file_is_an_io_error() {
         assert!(Mesh::load("/dev/zero").unwrap_err().to_string().ends_with("is not a regular file"), "never read");
     }
 }
+
+/// Two triangles of a metre near a place, as text: in the order x, y, z of the corners of each.
+fn far_away([x, y, z]: [i64; 3]) -> Vec<[String; 3]> {
+    let corner = |[a, b, c]: [f64; 3]| {
+        [(x, a), (y, b), (z, c)].map(|(whole, part)| format!("{whole}{}", &format!("{part:.3}")[1..]))
+    };
+    [
+        [0.125, 0.25, 0.5],
+        [0.875, 0.25, 0.5],
+        [0.125, 0.75, 0.5],
+        [0.875, 0.25, 0.501],
+        [0.875, 0.75, 0.5],
+        [0.125, 0.75, 0.503],
+    ]
+    .map(corner)
+    .to_vec()
+}
+
+#[test]
+fn vertices_far_from_the_origin_keep_their_places_in_all_formats() {
+    let files = Files::new();
+    let corners = far_away([500_000, 4_649_776, 12_345_678]);
+    let lines = |keyword: &str| corners.iter().map(|c| format!("{keyword} {}\n", c.join(" "))).collect::<Vec<_>>();
+    let vertices = lines("v").concat();
+    let faces = "f 1 2 3\nf 4 5 6\n";
+    let stl: String = lines("vertex")
+        .chunks(3)
+        .map(|facet| format!("facet\nouter loop\n{}endloop\nendfacet\n", facet.concat()))
+        .collect();
+    let header = |format: &str, of: &str| {
+        format!(
+            "ply\nformat {format} 1.0\nelement vertex 6\nproperty {of} x\nproperty {of} y\nproperty {of} z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let text = format!("{}{}3 0 1 2\n3 3 4 5\n", header("ascii", "double"), lines("").concat());
+    let mut binary = header("binary_big_endian", "double").into_bytes();
+    binary.extend(corners.iter().flatten().flat_map(|word| word.parse::<f64>().unwrap().to_be_bytes()));
+    for face in [[0, 1, 2], [3, 4, 5]] {
+        binary.push(3);
+        binary.extend(face.iter().flat_map(|vertex: &i32| vertex.to_be_bytes()));
+    }
+    let meshes = [
+        files.load("a.obj", format!("{vertices}{faces}")),
+        // Continued lines are left to another reader.
+        files.load("b.obj", format!("{}{faces}", vertices.replacen("v ", "v \\\n", 1))),
+        files.load("c.ply", text),
+        files.load("d.ply", binary),
+        files.load("e.stl", format!("solid a\n{stl}endsolid a\n")),
+        Mesh::parse("-", format!("solid a\n{stl}endsolid a\n").as_bytes()).unwrap(),
+    ];
+    for mesh in &meshes {
+        assert_eq!((mesh.positions(), mesh.origin()), (meshes[0].positions(), meshes[0].origin()));
+        for (position, words) in std::iter::zip(mesh.positions(), &corners) {
+            for axis in 0..3 {
+                let back = mesh.origin()[axis] + f64::from(position[axis]);
+                assert!((back - words[axis].parse::<f64>().unwrap()).abs() < 1e-6, "{back} {}", words[axis]);
+            }
+        }
+        assert!((mesh.area() - 0.375).abs() < 1e-5, "{}", mesh.area());
+    }
+    // Where floats hold them, vertices stay: near the origin, and in files of floats.
+    assert_eq!(files.load("near.obj", "v 10.1 0 0\nv 11 0 0\nv 10 1 0\nf 1 2 3").origin(), [0.0; 3]);
+    let floats = files.load(
+        "f.ply",
+        format!(
+            "{}100000 0 0\n100001 0 0\n100000 1 0.1\n100000 0 0\n100001 0 0\n100000 1 0\n3 0 1 2\n3 3 4 5\n",
+            header("ascii", "float")
+        ),
+    );
+    assert_eq!((floats.origin(), floats.positions()[1]), ([0.0; 3], [100_001.0, 0.0, 0.0]));
+}
+
+#[test]
+fn a_mesh_of_doubles_is_centred_and_hands_its_origin_on() {
+    let place = [500_000.3, 4_649_776.7, 0.0];
+    let positions =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|p: [f64; 3]| [0, 1, 2].map(|axis| place[axis] + p[axis]));
+    let mesh = Mesh::from_doubles(&positions, vec![[0, 1, 2]]).unwrap();
+    assert!((mesh.area() - 0.5).abs() < 1e-6);
+    assert!(mesh.origin()[0] != 0.0 && mesh.origin()[1] != 0.0 && mesh.origin()[2] == 0.0);
+    let others = [
+        mesh.deformed(mesh.positions().to_vec()).unwrap(),
+        mesh.clone().with_mask(vec![true]).unwrap(),
+        mesh.clone().with_normals(vec![[0.0, 0.0, 1.0]; 3], None).unwrap(),
+    ];
+    assert!(others.iter().all(|other| other.origin() == mesh.origin()));
+    let near = Mesh::from_doubles(&[[0.1, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap();
+    assert_eq!((near.origin(), near.positions()[0]), ([0.0; 3], [0.1, 0.0, 0.0]));
+}

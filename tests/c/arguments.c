@@ -232,6 +232,10 @@ static void meshes(void) {
     CHECK(out == UNTOUCHED);
     azulejo_mesh_free(NULL);
     CHECK(azulejo_mesh_area(NULL) == 0);
+    double origin[3] = {9, 9, 9};
+    azulejo_mesh_origin(NULL, NULL);
+    azulejo_mesh_origin(NULL, origin);
+    CHECK(origin[0] == 0 && origin[1] == 0 && origin[2] == 0);
     CHECK(azulejo_mesh_vertex_count(NULL) == 0 && azulejo_mesh_triangle_count(NULL) == 0);
     CHECK(azulejo_mesh_positions(NULL) == NULL && azulejo_mesh_indices(NULL) == NULL);
 }

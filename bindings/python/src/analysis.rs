@@ -8,20 +8,34 @@ use azulejo_core::{Context, Domain, Error, Progress};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::argument::{domain, natural};
-use crate::array::{Array, line};
+use crate::argument::{callable, maybe_pair, natural, real, whole};
+use crate::array::line;
+use crate::frame::{Frame, Positions, Rows};
 use crate::mesh::Mesh;
+use crate::taken;
 use crate::watch::Watch;
 
 /// Points of the plane in their domain.
 pub(crate) struct PlaneSet<'py> {
-    positions: Array<'py, f32>,
-    domain: Domain,
+    positions: Rows<'py, 2>,
+    pub(crate) frame: Frame,
 }
 
 impl<'py> PlaneSet<'py> {
-    pub(crate) fn read(positions: &Bound<'py, PyAny>, min: [f64; 2], max: [f64; 2], boundary: &str) -> PyResult<Self> {
-        Ok(Self { positions: Array::read("positions", positions)?, domain: domain(min, max, boundary)? })
+    pub(crate) fn read(
+        positions: &Bound<'py, PyAny>,
+        min: Option<[f64; 2]>,
+        max: Option<[f64; 2]>,
+        boundary: Option<&str>,
+    ) -> PyResult<Self> {
+        let positions = Positions::read("positions", positions)?;
+        let frame = Frame::around(&positions, min, max, boundary)?;
+        Ok(Self { positions: positions.around(frame.origin)?, frame })
+    }
+
+    /// The points, relative to the origin of the frame.
+    pub(crate) fn points(&self) -> PyResult<&[[f32; 2]]> {
+        self.positions.get()
     }
 
     pub(crate) fn run<T: Send>(
@@ -29,7 +43,7 @@ impl<'py> PlaneSet<'py> {
         watch: Watch,
         call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> Result<T, Error> + Send,
     ) -> PyResult<T> {
-        let (points, domain) = (self.positions.rows()?, &self.domain);
+        let (points, domain) = (self.points()?, &self.frame.domain);
         watch.run(|context, progress| call(context, domain, points, progress))
     }
 }
@@ -39,20 +53,21 @@ impl<'py> PlaneSet<'py> {
 /// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
 /// domain_min, domain_max: the corners of the domain, two numbers each.
 /// boundary: "periodic" (distances wrap around) or "bounded".
+///     Of positions that are Points the default is their own domain; of arrays it is the periodic unit square.
 /// threads: 0 for one per core.
 /// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
 ))]
 pub(crate) fn plane_smallest_distance(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
     PlaneSet::read(positions, domain_min, domain_max, boundary)?
         .run(Watch::new(py, threads, progress)?, spacing::smallest_distance_2d)
@@ -62,16 +77,16 @@ pub(crate) fn plane_smallest_distance(
 /// by the Voronoi diagram. The arguments are those of plane_smallest_distance.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
 ))]
 pub(crate) fn plane_covering_radius(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
     PlaneSet::read(positions, domain_min, domain_max, boundary)?
         .run(Watch::new(py, threads, progress)?, coverage::covering_radius_2d)
@@ -85,11 +100,11 @@ pub(crate) fn plane_covering_radius(
 pub(crate) fn space_smallest_distance(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
-    let positions = Array::read("positions", positions)?;
-    let points = positions.rows()?;
+    let (positions, ..) = Positions::read("positions", positions)?.centred()?;
+    let points = positions.get()?;
     Watch::new(py, threads, progress)?.run(|context, progress| spacing::smallest_distance_3d(context, points, progress))
 }
 
@@ -116,17 +131,17 @@ impl From<Coverage> for CoverageReport {
 /// Returns a CoverageReport.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, radius, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
 ))]
 pub(crate) fn plane_coverage(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<CoverageReport> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let coverage = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
@@ -146,14 +161,14 @@ pub(crate) fn plane_coverage(
 #[pyo3(signature = (mesh, positions, radius, *, threads=0, progress=None))]
 pub(crate) fn mesh_coverage(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<CoverageReport> {
-    let positions = Array::read("positions", positions)?;
-    let points = positions.rows()?;
+    let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
+    let points = positions.get()?;
     let coverage = Watch::new(py, threads, progress)?
         .run(|context, progress| coverage::surface_coverage(context, &mesh.shared, points, radius, progress))?;
     Ok(coverage.into())
@@ -166,16 +181,16 @@ pub(crate) fn mesh_coverage(
 #[pyo3(signature = (mesh, positions, radius, *, probes=100000, seed=0, threads=0, progress=None))]
 pub(crate) fn mesh_uncovered_fraction(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    probes: i128,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = whole::probes)] probes: i128,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<f64> {
-    let positions = Array::read("positions", positions)?;
-    let points = positions.rows()?;
+    let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
+    let points = positions.get()?;
     let (probes, seed) = (natural("probes", probes)?, natural("seed", seed)?);
     Watch::new(py, threads, progress)?.run(|context, progress| {
         coverage::surface_uncovered_fraction(context, &mesh.shared, points, radius, probes, seed, progress)
@@ -222,21 +237,21 @@ pub(crate) struct PlaneReport {
 /// The arguments are those of plane_smallest_distance. Returns a PlaneReport.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
 ))]
 pub(crate) fn plane_measure(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<PlaneReport> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let Figures { nearest, covering_radius, bond_order, triangles, .. } =
         set.run(Watch::new(py, threads, progress)?, figures_2d)?;
-    let spacing = spacing_2d(&set.domain, &nearest);
+    let spacing = spacing_2d(&set.frame.domain, &nearest);
     Ok(PlaneReport {
         count: nearest.len(),
         smallest_distance: spacing.smallest,
@@ -264,18 +279,18 @@ pub(crate) fn plane_measure(
 /// Returns uint64, shape (bins,).
 #[pyfunction]
 #[pyo3(signature = (
-    positions, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, reach, bins, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
 ))]
 pub(crate) fn plane_nearest_histogram(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    reach: f64,
-    bins: i128,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = whole::bins)] bins: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyArray1<u64>>> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let bins = natural("bins", bins)?;
@@ -298,18 +313,18 @@ pub(crate) fn plane_nearest_histogram(
 /// Returns float64, shape (bins,).
 #[pyfunction]
 #[pyo3(signature = (
-    positions, reach, bins, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0, progress=None
+    positions, reach, bins, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
 ))]
 pub(crate) fn plane_radial_distribution(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    reach: f64,
-    bins: i128,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = whole::bins)] bins: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyArray1<f64>>> {
     let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let bins = natural("bins", bins)?;

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
 use crate::error::invalid;
+use crate::frame::{Positions, Rows};
 
 /// Imports numpy. Left to the first array, its absence or Ctrl-C during the import would be a panic.
 pub(crate) fn load(py: Python<'_>) -> PyResult<()> {
@@ -92,8 +93,10 @@ impl<'py, T: Entry> Array<'py, T> {
     /// An image of height rows, as its pixels, width and height.
     pub(crate) fn image(&self) -> PyResult<(&[T], [usize; 2])> {
         match *self.shape() {
-            [height, width] => Ok((self.entries(), [width, height])),
-            ref shape => Err(invalid(self.argument, format!("its shape is {shape:?}, not [height, width]"))),
+            [height, width] if height > 0 && width > 0 => Ok((self.entries(), [width, height])),
+            ref shape => {
+                Err(invalid(self.argument, format!("its shape is {shape:?}, not [height, width] with both above 0")))
+            }
         }
     }
 
@@ -107,10 +110,25 @@ impl<'py, T: Entry> Array<'py, T> {
     }
 }
 
+/// What numpy makes of an object.
+pub(crate) fn as_array<'py>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let py = object.py();
+    if object.is_none() {
+        return Err(PyTypeError::new_err(format!("{argument}: None is no array")));
+    }
+    let numpy = py.import("numpy")?;
+    let made = |name, object: &Bound<'py, PyAny>| {
+        numpy.call_method1(name, (object,)).map_err(|error| invalid(argument, error.value(py)))
+    };
+    if object.hasattr("__array__")? || !object.hasattr("__dlpack__")? {
+        return made("asarray", object);
+    }
+    made("from_dlpack", object)
+}
+
 fn converted<'py, T: Entry>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
     let py = object.py();
-    let array =
-        py.import("numpy")?.call_method1("asarray", (object,)).map_err(|error| invalid(argument, error.value(py)))?;
+    let array = as_array(argument, object)?;
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     if array.getattr("size")?.extract::<usize>()? > 0 {
         if !T::KINDS.contains(&kind) {
@@ -139,23 +157,28 @@ pub(crate) fn optional<'py, T: Entry>(
 }
 
 /// The arguments `given_positions` and `given_clearances`.
-pub(crate) struct GivenArrays<'py> {
-    positions: Option<Array<'py, f32>>,
+pub(crate) struct GivenArrays<'py, const N: usize> {
+    positions: Option<Rows<'py, N>>,
     clearances: Option<Array<'py, f64>>,
 }
 
-impl<'py> GivenArrays<'py> {
+impl<'py, const N: usize> GivenArrays<'py, N> {
+    /// Positions in the caller's frame, in which the library has this origin.
     pub(crate) fn read(
         positions: Option<&Bound<'py, PyAny>>,
         clearances: Option<&Bound<'py, PyAny>>,
+        origin: [f64; N],
     ) -> PyResult<Self> {
-        let positions = optional("given_positions", positions)?;
-        Ok(Self { positions, clearances: optional("given_clearances", clearances)? })
+        let around = |positions| Positions::read("given_positions", positions)?.around(origin);
+        Ok(Self {
+            positions: positions.map(around).transpose()?,
+            clearances: optional("given_clearances", clearances)?,
+        })
     }
 
     /// The clearances are n numbers or, where there are classes, n rows of one for each class.
-    pub(crate) fn samples<const N: usize>(&self) -> PyResult<Given<'_, N>> {
-        let positions = self.positions.as_ref().map_or(Ok([].as_slice()), Array::rows)?;
+    pub(crate) fn samples(&self) -> PyResult<Given<'_, N>> {
+        let positions = self.positions.as_ref().map_or(Ok([].as_slice()), Rows::get)?;
         if let Some(clearances) = &self.clearances
             && clearances.shape().first() != Some(&positions.len())
         {

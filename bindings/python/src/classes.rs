@@ -4,8 +4,9 @@ use azulejo_core::Classes;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
+use crate::argument::real;
 use crate::array::{Array, line};
-use crate::error::{invalid, raised};
+use crate::error::{invalid, raised, raised_as};
 
 /// The argument `radii`.
 pub(crate) fn matrix(radii: &Bound<'_, PyAny>) -> PyResult<Classes> {
@@ -24,9 +25,14 @@ pub(crate) fn matrix(radii: &Bound<'_, PyAny>) -> PyResult<Classes> {
 /// Returns float64, shape (k, k).
 #[pyfunction]
 #[pyo3(signature = (own, factor=1.0))]
-pub(crate) fn classes_radii(py: Python<'_>, own: &Bound<'_, PyAny>, factor: f64) -> PyResult<Py<PyArray2<f64>>> {
+pub(crate) fn classes_radii(
+    py: Python<'_>,
+    own: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::factor)] factor: f64,
+) -> PyResult<Py<PyArray2<f64>>> {
     use numpy::PyArrayMethods;
-    let classes = Classes::of_radii(Array::read("own", own)?.line()?, factor).map_err(raised)?;
+    let classes = Classes::of_radii(Array::read("own", own)?.line()?, factor)
+        .map_err(|error| raised_as(error, "count", "own"))?;
     let count = classes.count();
     Ok(line(py, classes.radii().to_vec()).bind(py).reshape([count, count])?.unbind())
 }

@@ -6,9 +6,10 @@ use azulejo_core::kdrt::EditableSet;
 use azulejo_core::{Error, Region};
 use pyo3::prelude::*;
 
-use crate::argument::{domain, natural};
+use crate::argument::{callable, maybe_pair, maybe_real, natural, real, whole};
 use crate::array::{Array, GivenArrays};
 use crate::error::{invalid, raised};
+use crate::frame::{Frame, Positions, Rows};
 use crate::growing::locked;
 use crate::plane::Request;
 use crate::points::Points;
@@ -27,6 +28,7 @@ use crate::watch::Watch;
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Plane {
     set: RwLock<EditableSet>,
+    frame: Frame,
 }
 
 impl Plane {
@@ -40,12 +42,12 @@ impl Plane {
         let set = &mut *set;
         py.detach(|| step(set)).map_err(raised)
     }
-}
 
-/// Samples of an edit, with their ids.
-fn edited(py: Python<'_>, mut samples: azulejo_core::Points<2>) -> PyResult<Points> {
-    let ids = std::mem::take(&mut samples.ids);
-    Ok(Points::plane(py, samples)?.with_ids(py, ids))
+    /// Samples of an edit, with their ids.
+    fn edited(&self, py: Python<'_>, mut samples: azulejo_core::Points<2>) -> PyResult<Points> {
+        let ids = std::mem::take(&mut samples.ids);
+        Ok(Points::plane(py, samples, &self.frame)?.with_ids(py, ids))
+    }
 }
 
 /// The region of a ball and a box, of which either may be missing; in the plane at height 0.
@@ -78,42 +80,46 @@ pub(crate) fn region<const N: usize>(
 impl Plane {
     #[new]
     #[pyo3(signature = (
-        radius, positions=None, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0,
-        seed=0, given_positions=None, given_clearances=None, threads=0, progress=None
+        radius, positions=None, *, domain_min=None, domain_max=None, boundary=None, leaf_size=20.0, seed=0,
+        given_positions=None, given_clearances=None, threads=0, progress=None
     ))]
     fn new(
         py: Python<'_>,
-        radius: f64,
+        #[pyo3(from_py_with = real::radius)] radius: f64,
         positions: Option<&Bound<'_, PyAny>>,
-        domain_min: [f64; 2],
-        domain_max: [f64; 2],
-        boundary: &str,
-        leaf_size: f64,
-        seed: i128,
+        #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+        boundary: Option<&str>,
+        #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let domain = domain(domain_min, domain_max, boundary)?;
+        let positions = positions.map(|positions| Positions::read("positions", positions)).transpose()?;
+        let frame = match &positions {
+            Some(positions) => Frame::around(positions, domain_min, domain_max, boundary)?,
+            None => Frame::new(domain_min, domain_max, boundary.unwrap_or("periodic"))?,
+        };
         let given = (given_positions, given_clearances);
-        let request = Request::new(domain, leaf_size, seed, ("any", None, None), given)?;
+        let request = Request::new(&frame, leaf_size, seed, ("any", None, None), given)?;
         let request = request.by_radius(radius)?;
         let watch = Watch::new(py, threads, progress)?;
-        let positions = positions.map(|positions| Array::<f32>::read("positions", positions)).transpose()?;
-        let positions = positions.as_ref().map(Array::rows).transpose()?;
+        let positions = positions.map(|positions| positions.around(frame.origin)).transpose()?;
+        let positions = positions.as_ref().map(Rows::get).transpose()?;
         let set = watch.run(|context, progress| match positions {
             None => EditableSet::sample(context, &request, progress),
             Some(positions) => EditableSet::of(&request, positions),
         })?;
-        Ok(Self { set: RwLock::new(set) })
+        Ok(Self { set: RwLock::new(set), frame })
     }
 
     /// A copy of the set as it is, as Points, by rising ids.
     fn points(&self, py: Python<'_>) -> PyResult<Points> {
         let set = self.set.try_read().map_err(|error| locked(&error))?;
         let set = &*set;
-        edited(py, py.detach(|| set.samples()))
+        self.edited(py, py.detach(|| set.samples()))
     }
 
     /// Erases the samples in a disk, a rectangle, or what both have in common, and returns them as Points. On a torus both
@@ -129,20 +135,21 @@ impl Plane {
     fn erase(
         &self,
         py: Python<'_>,
-        centre: Option<[f64; 2]>,
-        radius: Option<f64>,
-        min: Option<[f64; 2]>,
-        max: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::centre)] centre: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_real::radius)] radius: Option<f64>,
+        #[pyo3(from_py_with = maybe_pair::min)] min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::max)] max: Option<[f64; 2]>,
     ) -> PyResult<Points> {
-        let region = region(centre, radius, min, max)?;
-        edited(py, self.edit(py, |set| set.erase(&region))?)
+        let local = |place: Option<_>| place.map(|place| self.frame.local(place));
+        let region = region(local(centre), radius, local(min), local(max))?;
+        self.edited(py, self.edit(py, |set| set.erase(&region))?)
     }
 
     /// Erases samples by their ids, uint64, shape (n,), and returns them as Points.
     fn erase_ids(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<Points> {
         let ids = Array::<u64>::read("ids", ids)?;
         let ids = ids.line()?;
-        edited(py, self.edit(py, |set| set.erase_ids(ids))?)
+        self.edited(py, self.edit(py, |set| set.erase_ids(ids))?)
     }
 
     /// Puts Points back that an edit of this set erased, with their ids and all their bytes. Refused if one is too close
@@ -161,10 +168,10 @@ impl Plane {
         given_positions: &Bound<'_, PyAny>,
         given_clearances: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(u64, Points)> {
-        let given = GivenArrays::read(Some(given_positions), given_clearances)?;
+        let given = GivenArrays::read(Some(given_positions), given_clearances, self.frame.origin)?;
         let given = given.samples()?;
         let (first, erased) = self.edit(py, |set| set.add_given(given))?;
-        Ok((first, edited(py, erased)?))
+        Ok((first, self.edited(py, erased)?))
     }
 
     /// Removes given samples by their ids, uint64, shape (n,): 0, 1, 2 and so on for those that the set was made with.
@@ -181,11 +188,17 @@ impl Plane {
     ///
     /// Returns the new samples as Points.
     #[pyo3(signature = (seed=0, *, threads=0, progress=None))]
-    fn refill(&self, py: Python<'_>, seed: i128, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<Points> {
+    fn refill(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Points> {
         let seed = natural("seed", seed)?;
         let watch = Watch::new(py, threads, progress)?;
         let mut set = self.set.try_write().map_err(|error| locked(&error))?;
         let set = &mut *set;
-        edited(py, watch.run(|context, progress| set.refill(context, seed, progress))?)
+        self.edited(py, watch.run(|context, progress| set.refill(context, seed, progress))?)
     }
 }

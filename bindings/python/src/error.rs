@@ -14,11 +14,26 @@ pub(crate) fn raised(error: Error) -> PyErr {
         Error::Cancelled => Cancelled::new_err("the progress callable returned False"),
         // With a number OSError makes itself the class that goes with it, such as FileNotFoundError.
         Error::Io { path, source } => match source.raw_os_error() {
-            Some(number) => PyOSError::new_err((number, source.to_string(), path)),
+            Some(number) => {
+                // The library's text repeats the number.
+                let text = source.to_string();
+                let text = text.split(" (os error").next().unwrap_or_default().to_owned();
+                PyOSError::new_err((number, text, path.display().to_string()))
+            }
             None => PyOSError::new_err(format!("{}: {source}", path.display())),
         },
         other => PyRuntimeError::new_err(other.to_string()),
     }
+}
+
+/// [`raised`] for a call in which an argument of the library has another name.
+pub(crate) fn raised_as(error: Error, from: &str, to: &'static str) -> PyErr {
+    raised(match error {
+        Error::InvalidArgument { argument, reason } if argument == from => {
+            Error::InvalidArgument { argument: to, reason }
+        }
+        other => other,
+    })
 }
 
 pub(crate) fn invalid(argument: &str, reason: impl std::fmt::Display) -> PyErr {

@@ -7,13 +7,15 @@ use azulejo_core::{Context, Error, Progress};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::argument::natural;
+use crate::argument::{callable, maybe_real, maybe_triple, natural, real, whole};
 use crate::array::{Array, GivenArrays};
 use crate::edit::region;
 use crate::error::raised;
+use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::{PspReport, priority};
+use crate::taken;
 use crate::watch::Watch;
 
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
@@ -22,6 +24,8 @@ use crate::watch::Watch;
 /// mesh, radius, seed, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Psp {
+    /// Of the mesh.
+    origin: [f64; 3],
     state: RwLock<State>,
 }
 
@@ -76,12 +80,12 @@ impl Psp {
         let state = &mut *state;
         py.detach(|| step(state.editable())).map_err(raised)
     }
-}
 
-/// Samples of an edit, with their ids.
-fn edited(py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Points> {
-    let ids = std::mem::take(&mut samples.ids);
-    Ok(Points::surface(py, samples)?.with_ids(py, ids))
+    /// Samples of an edit, with their ids.
+    fn edited(&self, py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Points> {
+        let ids = std::mem::take(&mut samples.ids);
+        Ok(Points::surface(py, samples, self.origin)?.with_ids(py, ids))
+    }
 }
 
 pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
@@ -95,26 +99,27 @@ pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
 impl Psp {
     #[new]
     #[pyo3(signature = (
-        mesh, radius, *, seed=0, priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0
+        mesh, radius, *, seed=0, priority="squareness", given_positions=None, given_clearances=None, cosine=None
     ))]
     fn new(
         py: Python<'_>,
-        mesh: &Mesh,
-        radius: f64,
-        seed: i128,
+        #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
+        #[pyo3(from_py_with = real::radius)] radius: f64,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
         priority: &str,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
-        cosine: f64,
+        #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
     ) -> PyResult<Self> {
-        let given = GivenArrays::read(given_positions, given_clearances)?;
+        let origin = mesh.shared.origin();
+        let given = GivenArrays::read(given_positions, given_clearances, origin)?;
         let request = psp::ProjectionOptions::new(radius)
             .seed(natural("seed", seed)?)
             .priority(self::priority(priority)?)
             .given(given.samples()?)
-            .cosine(cosine);
+            .cosine(cosine.unwrap_or(-1.0));
         let set = py.detach(|| psp::Psp::new(&mesh.shared, &request)).map_err(raised)?;
-        Ok(Self { state: RwLock::new(State::Growing(set)) })
+        Ok(Self { origin, state: RwLock::new(State::Growing(set)) })
     }
 
     /// Adds samples by iterations of projection, each along three orthogonal directions of a random frame. Two calls add
@@ -128,9 +133,9 @@ impl Psp {
     fn advance(
         &self,
         py: Python<'_>,
-        iterations: i128,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::iterations)] iterations: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<PspReport> {
         let iterations = natural("iterations", iterations)?;
         let watch = Watch::new(py, threads, progress)?;
@@ -149,7 +154,12 @@ impl Psp {
     ///
     /// Returns a PspReport of this call.
     #[pyo3(signature = (*, threads=0, progress=None))]
-    fn fill(&self, py: Python<'_>, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<PspReport> {
+    fn fill(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<PspReport> {
         self.change(Watch::new(py, threads, progress)?, |state, context, progress| match state {
             State::Growing(set) => set.fill(context, progress),
             _ => {
@@ -165,7 +175,11 @@ impl Psp {
         let state = self.state.try_read().map_err(|error| locked(&error))?;
         let state = &*state;
         let samples = py.detach(|| state.samples());
-        if matches!(state, State::Edited(_)) { edited(py, samples) } else { Points::surface(py, samples) }
+        if matches!(state, State::Edited(_)) {
+            self.edited(py, samples)
+        } else {
+            Points::surface(py, samples, self.origin)
+        }
     }
 
     /// Erases the samples in a ball, a box, or what both have in common, and returns them as Points with ids. From the
@@ -181,20 +195,21 @@ impl Psp {
     fn erase(
         &self,
         py: Python<'_>,
-        centre: Option<[f64; 3]>,
-        radius: Option<f64>,
-        min: Option<[f64; 3]>,
-        max: Option<[f64; 3]>,
+        #[pyo3(from_py_with = maybe_triple::centre)] centre: Option<[f64; 3]>,
+        #[pyo3(from_py_with = maybe_real::radius)] radius: Option<f64>,
+        #[pyo3(from_py_with = maybe_triple::min)] min: Option<[f64; 3]>,
+        #[pyo3(from_py_with = maybe_triple::max)] max: Option<[f64; 3]>,
     ) -> PyResult<Points> {
-        let region = region(centre, radius, min, max)?;
-        edited(py, self.edit(py, |set| set.erase(&region))?)
+        let local = |place: Option<_>| place.map(|place| relative(place, self.origin));
+        let region = region(local(centre), radius, local(min), local(max))?;
+        self.edited(py, self.edit(py, |set| set.erase(&region))?)
     }
 
     /// Erases samples by their ids, uint64, shape (n,), and returns them as Points.
     fn erase_ids(&self, py: Python<'_>, ids: &Bound<'_, PyAny>) -> PyResult<Points> {
         let ids = Array::<u64>::read("ids", ids)?;
         let ids = ids.line()?;
-        edited(py, self.edit(py, |set| set.erase_ids(ids))?)
+        self.edited(py, self.edit(py, |set| set.erase_ids(ids))?)
     }
 
     /// Puts Points back that an edit of this set erased, with their ids and all their bytes. Refused if one is too close
@@ -213,10 +228,10 @@ impl Psp {
         given_positions: &Bound<'_, PyAny>,
         given_clearances: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(u64, Points)> {
-        let given = GivenArrays::read(Some(given_positions), given_clearances)?;
+        let given = GivenArrays::read(Some(given_positions), given_clearances, self.origin)?;
         let given = given.samples()?;
         let (first, erased) = self.edit(py, |set| set.add_given(given))?;
-        Ok((first, edited(py, erased)?))
+        Ok((first, self.edited(py, erased)?))
     }
 
     /// Removes given samples by their ids, uint64, shape (n,): 0, 1, 2 and so on for those that the set was made with.
@@ -233,12 +248,18 @@ impl Psp {
     ///
     /// Returns the new samples as Points with ids and the report PspReport.
     #[pyo3(signature = (seed=0, *, threads=0, progress=None))]
-    fn refill(&self, py: Python<'_>, seed: i128, threads: i128, progress: Option<Py<PyAny>>) -> PyResult<Points> {
+    fn refill(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Points> {
         let seed = natural("seed", seed)?;
         let watch = Watch::new(py, threads, progress)?;
         let mut state = self.state.try_write().map_err(|error| locked(&error))?;
         let state = &mut *state;
         let (added, report) = watch.run(|context, progress| state.editable().refill(context, seed, progress))?;
-        edited(py, added)?.with_report(py, PspReport::from(report))
+        self.edited(py, added)?.with_report(py, PspReport::from(report))
     }
 }

@@ -6,6 +6,7 @@ mod array;
 mod classes;
 mod edit;
 mod error;
+mod frame;
 mod growing;
 mod mesh;
 mod plane;
@@ -15,6 +16,7 @@ mod relax;
 mod remesh;
 mod spectrum;
 mod stream;
+mod taken;
 mod thin;
 mod watch;
 

@@ -4,21 +4,26 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use azulejo_core::mesh;
-use numpy::PyArray2;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-use crate::array::{Array, optional, table};
+use crate::array::{Array, line, optional, table};
 use crate::error::{invalid, raised};
+use crate::frame::{Positions, framed};
 use crate::points::Points;
+use crate::taken;
 
 /// A triangle mesh, as it comes: open, in parts, wound in any way. Immutable; several threads may use it at once.
 ///
-/// positions: of the vertices, float32, shape (v, 3); other real numbers are rounded.
-/// indices: of the triangles' corners, uint32, shape (t, 3); other whole numbers are converted.
+/// positions: of the vertices, shape (v, 3), any real numbers, of which float32 is kept, relative to an origin: 0 unless
+///     the mesh lies so far from there that rounding would move vertices by more than a millionth of its size.
+/// indices: of the triangles' corners, whole numbers of any type, shape (t, 3); faces of more corners become fans of
+///     triangles.
 /// normals: float32, shape (v, 3), or any number of them with normal_indices. Samples have them interpolated.
 /// normal_indices: uint32, shape (t, 3): the normals of the triangles' corners.
 /// mask: bool, shape (t,): triangles with False get no samples and need not be covered.
-#[pyclass(frozen, module = "azulejo")]
+#[pyclass(frozen, module = "azulejo", skip_from_py_object)]
+#[derive(Clone)]
 pub(crate) struct Mesh {
     pub(crate) shared: Arc<mesh::Mesh>,
 }
@@ -41,9 +46,11 @@ impl Mesh {
         normal_indices: Option<&Bound<'_, PyAny>>,
         mask: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let positions = Array::<f32>::read("positions", positions)?.rows()?.to_vec();
-        let indices = Array::<u32>::read("indices", indices)?.rows()?.to_vec();
-        let mut mesh: Self = py.detach(|| mesh::Mesh::new(positions, indices)).map_err(raised)?.into();
+        let (positions, origin, _) = Positions::read("positions", positions)?.centred()?;
+        let positions = positions.get()?.to_vec();
+        let indices = taken::triangles(indices)?;
+        let made = py.detach(|| mesh::Mesh::new(positions, indices)).map_err(raised)?;
+        let mut mesh: Self = made.with_origin(origin).into();
         if let Some(normals) = normals {
             mesh = mesh.with_normals(normals, normal_indices)?;
         } else if normal_indices.is_some() {
@@ -76,10 +83,11 @@ impl Mesh {
         Ok(py.detach(|| mesh::Mesh::clone(&self.shared).with_mask(mask)).map_err(raised)?.into())
     }
 
-    /// The mesh with its vertices moved: float32, shape (v, 3). Its triangles and mask stay, its normals do not.
+    /// The mesh with its vertices moved: positions as in Mesh(). Its triangles and mask stay, its normals do not.
     fn deform(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let positions = Array::<f32>::read("positions", positions)?.rows()?.to_vec();
-        Ok(py.detach(|| self.shared.deformed(positions)).map_err(raised)?.into())
+        let (positions, origin, _) = Positions::read("positions", positions)?.centred()?;
+        let positions = positions.get()?.to_vec();
+        Ok(py.detach(|| self.shared.deformed(positions)).map_err(raised)?.with_origin(origin).into())
     }
 
     /// The points at places of the surface, such as those of samples on a mesh that was deformed since.
@@ -95,7 +103,7 @@ impl Mesh {
             (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
         let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);
         let samples = py.detach(|| self.shared.samples_at(triangles, barycentrics)).map_err(raised)?;
-        Points::surface(py, samples)
+        Points::surface(py, samples, self.shared.origin())
     }
 
     /// The number of vertices, v.
@@ -110,10 +118,24 @@ impl Mesh {
         self.shared.triangles().len()
     }
 
-    /// A copy of the positions of the vertices, float32, shape (v, 3).
+    /// A copy of the positions of the vertices, shape (v, 3): float32, or float64 where the origin is not 0.
     #[getter]
-    fn positions(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f32>>> {
+    fn positions(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        framed(py, self.shared.positions().to_vec(), self.shared.origin())
+    }
+
+    /// A copy of the positions relative to the origin, float32, shape (v, 3).
+    #[getter]
+    fn local_positions(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f32>>> {
         table(py, self.shared.positions().to_vec())
+    }
+
+    /// The place that the library's float32 positions are relative to, float64, shape (3,): 0 unless the mesh was made, or
+    /// read from a file of text or doubles, so far from there that float32 would be too coarse. Samples have it too, as
+    /// points.origin, and all positions that are passed in or out are in the frame of the caller.
+    #[getter]
+    fn origin(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        line(py, self.shared.origin().to_vec())
     }
 
     /// A copy of the indices of the triangles' corners, uint32, shape (t, 3).

@@ -4,10 +4,11 @@ use azulejo_core::kdrt::{self, CountOptions, Kind, Plane, Progressive};
 use azulejo_core::{Classes, Domain, Order, maximal};
 use pyo3::prelude::*;
 
-use crate::argument::{domain, natural, order};
-use crate::array::{Array, GivenArrays};
+use crate::argument::{amount, callable, maybe_pair, maybe_real, natural, number, one_of, order, pair, real, whole};
+use crate::array::GivenArrays;
 use crate::classes::matrix;
 use crate::error::{invalid, raised};
+use crate::frame::{Frame, Positions, Rows};
 use crate::points::Points;
 use crate::watch::Watch;
 
@@ -27,12 +28,12 @@ pub(crate) struct Request<'py> {
     seed: u64,
     /// Of a progressive order.
     levels: Option<Progressive>,
-    given: GivenArrays<'py>,
+    given: GivenArrays<'py, 2>,
 }
 
 impl<'py> Request<'py> {
     pub(crate) fn new(
-        domain: Domain,
+        frame: &Frame,
         leaf_size: f64,
         seed: i128,
         (order_name, quotient, coarsest): (&str, Option<f64>, Option<f64>),
@@ -47,7 +48,8 @@ impl<'py> Request<'py> {
                 Some(levels.coarsest(coarsest.unwrap_or(longest)))
             }
         };
-        Ok(Self { domain, leaf_size, seed, levels, given: GivenArrays::read(given_positions, given_clearances)? })
+        let given = GivenArrays::read(given_positions, given_clearances, frame.origin)?;
+        Ok(Self { domain: frame.domain, leaf_size, seed, levels, given })
     }
 
     pub(crate) fn by_radius(&self, radius: f64) -> PyResult<kdrt::Options<'_>> {
@@ -68,7 +70,7 @@ impl<'py> Request<'py> {
     }
 
     fn by_count(&self, count: u64) -> PyResult<CountOptions> {
-        if !self.given.samples::<2>()?.positions.is_empty() {
+        if !self.given.samples()?.positions.is_empty() {
             return Err(invalid("given_positions", "a count does not go with given samples"));
         }
         Ok(CountOptions::new(count).domain(self.domain).leaf_size(self.leaf_size).seed(self.seed).levels(self.levels))
@@ -78,12 +80,15 @@ impl<'py> Request<'py> {
 /// A maximal Poisson-disk set of a rectangle or torus: no two samples are closer than a radius, and no place is farther
 /// from all of them. Time grows in proportion to the samples.
 ///
-/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or: count: the number of samples,
-/// which is met exactly; the radius is found. Twice the work. domain_min, domain_max: the corners of the domain, two
-/// numbers each; samples lie in min <= x < max. boundary: "periodic" (distances wrap around) or "bounded". leaf_size:
-/// in radii, at least 6. Larger is faster and less biased. seed: 0 to 2**64 - 1. The same arguments and seed give the
-/// same bytes. order: "any", or "progressive": every prefix is well spread, and the points have ranks. quotient,
-/// coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
+/// radius: the smallest distance of two samples, above 0, in the units of the domain. Or:
+/// count: the number of samples, which is met exactly; the radius is found. Twice the work.
+/// domain_min, domain_max: the corners of the domain, two numbers each; samples lie in min <= x < max. Default: the unit
+///     square. Positions are float32, or float64 in a domain that lies farther from the origin than 1024 times its size.
+/// boundary: "periodic" (distances wrap around) or "bounded".
+/// leaf_size: in radii, at least 6. Larger is faster and less biased.
+/// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
+/// quotient, coarsest: of a progressive order, the ratio of the radii of its levels (1.02 to 1.5, default 2**(1/8)) and the
 ///     radius of the coarsest level (default: so large that it reaches over the domain).
 /// given_positions: float32, shape (m, 2): samples that stay and are not returned.
 /// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius.
@@ -93,42 +98,43 @@ impl<'py> Request<'py> {
 /// Returns Points with the report KdrtReport.
 #[pyfunction]
 #[pyo3(signature = (
-    radius=0.0, *, count=0, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
+    radius=0.0, *, count=0, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0, seed=0,
     order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample(
     py: Python<'_>,
-    radius: f64,
-    count: i128,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = amount::radius)] radius: f64,
+    #[pyo3(from_py_with = number::count)] count: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
-    quotient: Option<f64>,
-    coarsest: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
+    one_of(radius, count, frame.domain.extent(), "domain")?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let watch = Watch::new(py, threads, progress)?;
     match natural("count", count)? {
         0 => {
             let request = request.by_radius(radius)?;
             let set = watch.run(|context, progress| kdrt::sample(context, &request, progress))?;
-            Points::plane(py, set)?.with_report(py, KdrtReport { radius, is_maximal: true })
+            Points::plane(py, set, &frame)?.with_report(py, KdrtReport { radius, is_maximal: true })
         }
         _ if radius != 0.0 => Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0"))),
         count => {
             let request = request.by_count(count)?;
             let (set, done) = watch.run(|context, progress| kdrt::sample_count(context, &request, progress))?;
             let report = KdrtReport { radius: done.radius, is_maximal: done.is_maximal };
-            Points::plane(py, set)?.with_report(py, report)
+            Points::plane(py, set, &frame)?.with_report(py, report)
         }
     }
 }
@@ -138,35 +144,36 @@ pub(crate) fn kdrt_sample(
 /// window_min, window_max: the corners, two numbers each, inside the domain. The others are those of kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    window_min, window_max, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic",
+    window_min, window_max, radius, *, domain_min=None, domain_max=None, boundary="periodic",
     leaf_size=20.0, seed=0, order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None,
     threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample_window(
     py: Python<'_>,
-    window_min: [f64; 2],
-    window_max: [f64; 2],
-    radius: f64,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = pair::window_min)] window_min: [f64; 2],
+    #[pyo3(from_py_with = pair::window_max)] window_max: [f64; 2],
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
-    quotient: Option<f64>,
-    coarsest: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let request = request.by_radius(radius)?;
+    let (min, max) = (frame.local(window_min), frame.local(window_max));
     let set = Watch::new(py, threads, progress)?
-        .run(|context, progress| kdrt::sample_window(context, &request, window_min, window_max, progress))?;
-    Points::plane(py, set)
+        .run(|context, progress| kdrt::sample_window(context, &request, min, max, progress))?;
+    Points::plane(py, set, &frame)
 }
 
 /// A maximal set of several classes: samples of the classes i and j are at least radii[i][j] apart, and for each class
@@ -179,32 +186,32 @@ pub(crate) fn kdrt_sample_window(
 /// Returns Points with classes.
 #[pyfunction]
 #[pyo3(signature = (
-    radii, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0, order="any",
+    radii, *, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0, seed=0, order="any",
     quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn kdrt_sample_classes(
     py: Python<'_>,
     radii: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
-    quotient: Option<f64>,
-    coarsest: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let classes = matrix(radii)?;
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+    let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
     let request = request.by_classes(0.0, &classes)?;
     let set = Watch::new(py, threads, progress)?.run(|context, progress| kdrt::sample(context, &request, progress))?;
-    Points::classified(py, set)
+    Points::classified(py, set, &frame)
 }
 
 /// A plane whose pattern is made once, for many windows of it.
@@ -213,6 +220,7 @@ pub(crate) fn kdrt_sample_classes(
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct KdrtPlane {
     plane: Plane,
+    frame: Frame,
     has_classes: bool,
 }
 
@@ -220,30 +228,30 @@ pub(crate) struct KdrtPlane {
 impl KdrtPlane {
     #[new]
     #[pyo3(signature = (
-        radius=0.0, *, radii=None, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0,
+        radius=0.0, *, radii=None, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0,
         seed=0, order="any", quotient=None, coarsest=None, given_positions=None, given_clearances=None, threads=0,
         progress=None
     ))]
     fn new(
         py: Python<'_>,
-        radius: f64,
+        #[pyo3(from_py_with = amount::radius)] radius: f64,
         radii: Option<&Bound<'_, PyAny>>,
-        domain_min: [f64; 2],
-        domain_max: [f64; 2],
+        #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
         boundary: &str,
-        leaf_size: f64,
-        seed: i128,
+        #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
         order: &str,
-        quotient: Option<f64>,
-        coarsest: Option<f64>,
+        #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+        #[pyo3(from_py_with = maybe_real::coarsest)] coarsest: Option<f64>,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let domain = domain(domain_min, domain_max, boundary)?;
+        let frame = Frame::new(domain_min, domain_max, boundary)?;
         let given = (given_positions, given_clearances);
-        let request = Request::new(domain, leaf_size, seed, (order, quotient, coarsest), given)?;
+        let request = Request::new(&frame, leaf_size, seed, (order, quotient, coarsest), given)?;
         let watch = Watch::new(py, threads, progress)?;
         let classes = radii.map(matrix).transpose()?;
         let request = match &classes {
@@ -251,7 +259,7 @@ impl KdrtPlane {
             Some(classes) => request.by_classes(radius, classes)?,
         };
         let plane = watch.run(|context, progress| Plane::new(context, &request, progress))?;
-        Ok(Self { plane, has_classes: classes.is_some() })
+        Ok(Self { plane, frame, has_classes: classes.is_some() })
     }
 
     /// The samples in a window, on the calling thread: the same as in the set of kdrt_sample, to the byte.
@@ -259,8 +267,9 @@ impl KdrtPlane {
     /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at
     /// once.
     fn window(&self, py: Python<'_>, window_min: [f64; 2], window_max: [f64; 2]) -> PyResult<Points> {
-        let set = py.detach(|| self.plane.window(window_min, window_max)).map_err(raised)?;
-        if self.has_classes { Points::classified(py, set) } else { Points::plane(py, set) }
+        let (min, max) = (self.frame.local(window_min), self.frame.local(window_max));
+        let set = py.detach(|| self.plane.window(min, max)).map_err(raised)?;
+        if self.has_classes { Points::classified(py, set, &self.frame) } else { Points::plane(py, set, &self.frame) }
     }
 }
 
@@ -268,23 +277,23 @@ impl KdrtPlane {
 /// kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0, progress=None
+    radius, *, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0, progress=None
 ))]
 pub(crate) fn maximal_sample(
     py: Python<'_>,
-    radius: f64,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
-    let request = maximal::Options::new(radius).domain(domain).seed(natural("seed", seed)?);
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
+    let request = maximal::Options::new(radius).domain(frame.domain).seed(natural("seed", seed)?);
     let samples =
         Watch::new(py, threads, progress)?.run(|context, progress| maximal::sample(context, &request, progress))?;
-    Points::plane(py, samples)
+    Points::plane(py, samples, &frame)
 }
 
 /// The report of kdrt_merge.
@@ -307,33 +316,35 @@ pub(crate) struct KdrtMergeReport {
 /// Returns Points with the report KdrtMergeReport.
 #[pyfunction]
 #[pyo3(signature = (
-    pieces, radius, *, fixed=None, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0,
+    pieces, radius, *, fixed=None, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0,
     progress=None
 ))]
 pub(crate) fn kdrt_merge<'py>(
     py: Python<'py>,
     pieces: Vec<(Bound<'py, PyAny>, [f64; 2], [f64; 2])>,
-    radius: f64,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
     fixed: Option<&Bound<'py, PyAny>>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let domain = domain(domain_min, domain_max, boundary)?;
-    let request = kdrt::MergeOptions::new(radius).domain(domain).seed(natural("seed", seed)?);
-    let arrays: Vec<Array<f32>> =
-        pieces.iter().map(|(positions, ..)| Array::read("pieces", positions)).collect::<PyResult<_>>()?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
+    let request = kdrt::MergeOptions::new(radius).domain(frame.domain).seed(natural("seed", seed)?);
+    let around = |argument, positions| Positions::read(argument, positions)?.around::<2>(frame.origin);
+    let arrays: Vec<_> = pieces.iter().map(|(positions, ..)| around("pieces", positions)).collect::<PyResult<_>>()?;
     let pieces: Vec<_> = arrays
         .iter()
         .zip(&pieces)
-        .map(|(positions, &(_, min, max))| Ok(kdrt::Piece { samples: positions.rows()?, min, max }))
+        .map(|(positions, &(_, min, max))| {
+            Ok(kdrt::Piece { samples: positions.get()?, min: frame.local(min), max: frame.local(max) })
+        })
         .collect::<PyResult<_>>()?;
-    let fixed = crate::array::optional("fixed", fixed)?;
-    let fixed = fixed.as_ref().map_or(Ok([].as_slice()), Array::rows)?;
+    let fixed = fixed.map(|fixed| around("fixed", fixed)).transpose()?;
+    let fixed = fixed.as_ref().map_or(Ok([].as_slice()), Rows::get)?;
     let (merged, kdrt::MergeReport { kept, eliminated, inserted, .. }) = Watch::new(py, threads, progress)?
         .run(|context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;
-    Points::plane(py, merged)?.with_report(py, KdrtMergeReport { kept, eliminated, inserted })
+    Points::plane(py, merged, &frame)?.with_report(py, KdrtMergeReport { kept, eliminated, inserted })
 }

@@ -6,13 +6,26 @@ use pyo3::types::IntoPyDict;
 use pyo3::{PyClass, PyClassInitializer};
 
 use crate::array::{Array, Entry, line, line_if_any, table};
+use crate::error::invalid;
+use crate::frame::{Frame, Rows, in_frame};
 
 /// Samples. len() is their number n; numpy.asarray() gives their positions. What does not apply is None.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Points {
-    /// Positions, float32, shape (n, 2) in the plane or (n, 3) on meshes, in the units of the domain or mesh.
+    /// Positions, shape (n, 2) in the plane or (n, 3) on meshes, in the units of the domain or mesh: float32, or float64
+    /// where the domain or mesh has an origin that is not 0, which is then added to local_positions.
     #[pyo3(get)]
     positions: Py<PyAny>,
+    /// The positions relative to origin, float32, shape (n, 2) or (n, 3): what radii and gaps hold for to the last bit.
+    #[pyo3(get)]
+    pub(crate) local_positions: Py<PyAny>,
+    /// What local_positions are relative to, float64, shape (2,) or (3,): 0 unless the domain or mesh lies so far from
+    /// there that float32 would be too coarse.
+    #[pyo3(get)]
+    origin: Py<PyArray1<f64>>,
+    pub(crate) has_origin: bool,
+    /// In the plane: the domain.
+    pub(crate) frame: Option<Frame>,
     /// On meshes: unit normals of the samples' triangles, float32, shape (n, 3).
     #[pyo3(get)]
     normals: Option<Py<PyArray2<f32>>>,
@@ -45,11 +58,16 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    pub(crate) fn plane(py: Python<'_>, points: impl Into<azulejo_core::Points<2>>) -> PyResult<Self> {
+    pub(crate) fn plane(py: Python<'_>, points: impl Into<azulejo_core::Points<2>>, frame: &Frame) -> PyResult<Self> {
         let azulejo_core::Points { positions, ranks, classes, .. } = points.into();
         let count = positions.len();
+        let local = table(py, positions)?;
         Ok(Self {
-            positions: table(py, positions)?.into_any(),
+            positions: in_frame(local.bind(py), frame.origin)?,
+            local_positions: local.into_any(),
+            origin: line(py, frame.origin.to_vec()),
+            has_origin: frame.origin != [0.0; 2],
+            frame: Some(*frame),
             normals: None,
             interpolated_normals: None,
             triangles: None,
@@ -64,12 +82,13 @@ impl Points {
     }
 
     /// Samples of the plane that have classes even if there are none of them.
-    pub(crate) fn classified(py: Python<'_>, points: azulejo_core::Points<2>) -> PyResult<Self> {
+    pub(crate) fn classified(py: Python<'_>, points: azulejo_core::Points<2>, frame: &Frame) -> PyResult<Self> {
         let classes = points.classes.clone();
-        Ok(Self::plane(py, points)?.with_classes(py, classes))
+        Ok(Self::plane(py, points, frame)?.with_classes(py, classes))
     }
 
-    pub(crate) fn surface(py: Python<'_>, samples: azulejo_core::Points<3>) -> PyResult<Self> {
+    /// Samples of a mesh with this origin.
+    pub(crate) fn surface(py: Python<'_>, samples: azulejo_core::Points<3>, origin: [f64; 3]) -> PyResult<Self> {
         let azulejo_core::Points {
             positions,
             normals,
@@ -82,9 +101,15 @@ impl Points {
             ids: _, // see with_ids
         } = samples;
         let has_normals = !interpolated_normals.is_empty();
+        let count = positions.len();
+        let local = table(py, positions)?;
         Ok(Self {
-            count: positions.len(),
-            positions: table(py, positions)?.into_any(),
+            count,
+            positions: in_frame(local.bind(py), origin)?,
+            local_positions: local.into_any(),
+            origin: line(py, origin.to_vec()),
+            has_origin: origin != [0.0; 3],
+            frame: None,
             normals: Some(table(py, normals)?),
             interpolated_normals: has_normals.then(|| table(py, interpolated_normals)).transpose()?,
             triangles: Some(line(py, triangles)),
@@ -98,9 +123,9 @@ impl Points {
     }
 
     /// Samples of a call whose radius varies: an empty set has radii too.
-    pub(crate) fn adaptive(py: Python<'_>, mut samples: azulejo_core::Points<3>) -> PyResult<Self> {
+    pub(crate) fn adaptive(py: Python<'_>, mut samples: azulejo_core::Points<3>, origin: [f64; 3]) -> PyResult<Self> {
         let radii = std::mem::take(&mut samples.radii);
-        Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples)? })
+        Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples, origin)? })
     }
 
     /// Samples of a set that is edited: an empty set has ids too.
@@ -112,7 +137,7 @@ impl Points {
     pub(crate) fn samples<const N: usize>(&self, py: Python<'_>) -> PyResult<azulejo_core::Points<N>> {
         let barycentrics = self.barycentrics.as_ref().map(|rows| rows.bind(py).as_any());
         Ok(azulejo_core::Points {
-            positions: Array::read("points", self.positions.bind(py))?.rows()?.to_vec(),
+            positions: self.local(py)?.get()?.to_vec(),
             triangles: entries(py, self.triangles.as_ref())?,
             barycentrics: match barycentrics {
                 Some(rows) => Array::read("points", rows)?.rows()?.to_vec(),
@@ -121,6 +146,21 @@ impl Points {
             ids: entries(py, self.ids.as_ref())?,
             ..Default::default()
         })
+    }
+
+    /// The positions relative to the origin.
+    pub(crate) fn local<'py, const N: usize>(&self, py: Python<'py>) -> PyResult<Rows<'py, N>> {
+        let array = Array::read("points", self.local_positions.bind(py))?;
+        array.rows::<N>()?;
+        Ok(Rows::InPlace(array))
+    }
+
+    /// The origin.
+    pub(crate) fn origin<const N: usize>(&self, py: Python<'_>) -> PyResult<[f64; N]> {
+        let origin = self.origin.bind(py).as_any();
+        let entries = Array::<f64>::read("points", origin)?;
+        <[f64; N]>::try_from(entries.entries())
+            .map_err(|_| invalid("points", format!("they do not have {N} coordinates")))
     }
 
     pub(crate) fn with_classes(self, py: Python<'_>, classes: Vec<u32>) -> Self {
@@ -143,6 +183,24 @@ fn entries<T: Entry>(py: Python<'_>, array: Option<&Py<PyArray1<T>>>) -> PyResul
 
 #[pymethods]
 impl Points {
+    /// In the plane: the lower corner of the domain, two numbers.
+    #[getter]
+    fn domain_min(&self) -> Option<[f64; 2]> {
+        self.frame.map(|frame| frame.whole.min)
+    }
+
+    /// In the plane: the upper corner of the domain, two numbers.
+    #[getter]
+    fn domain_max(&self) -> Option<[f64; 2]> {
+        self.frame.map(|frame| frame.whole.max)
+    }
+
+    /// In the plane: "periodic" or "bounded".
+    #[getter]
+    fn boundary(&self) -> Option<&'static str> {
+        self.frame.map(|frame| frame.boundary())
+    }
+
     fn __len__(&self) -> usize {
         self.count
     }

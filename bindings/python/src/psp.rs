@@ -5,12 +5,15 @@ use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
 use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority};
 use pyo3::prelude::*;
 
-use crate::argument::{choice, natural, order};
+use crate::argument::{
+    amount, callable, choice, maybe_real, maybe_whole, natural, number, one_of, order, truth, whole,
+};
 use crate::array::{Array, GivenArrays, optional};
 use crate::classes::matrix;
 use crate::error::invalid;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::taken;
 use crate::watch::Watch;
 
 /// The report of a psp_ call.
@@ -61,7 +64,7 @@ impl From<psp::Report> for PspReport {
 /// A maximal Poisson-disk set on a mesh, by straight distance: no two samples are closer than a radius, and no place of the
 /// surface is farther from all of them. Time grows in proportion to the samples and triangles.
 ///
-/// mesh: a Mesh.
+/// mesh: a Mesh; or what has vertices and faces, as of trimesh, Open3D and PyVista; or a tuple (vertices, faces).
 /// radius: the smallest distance of two samples, above 0, in the units of the mesh. Or:
 /// count: the number of samples, which is met exactly; the radius is found.
 /// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
@@ -73,7 +76,7 @@ impl From<psp::Report> for PspReport {
 ///     ("squareness"), or of the earlier one ("projector").
 /// given_positions: float32, shape (m, 3): samples that stay and are not returned.
 /// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius.
-/// cosine: samples on triangles whose normals have a smaller cosine ignore each other: for thin walls. -1: off.
+/// cosine: samples on triangles whose normals have a smaller cosine ignore each other: for thin walls. Default: -1, off.
 /// threads: 0 for one per core. The samples do not depend on it.
 /// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
 ///
@@ -81,26 +84,29 @@ impl From<psp::Report> for PspReport {
 #[pyfunction]
 #[pyo3(signature = (
     mesh, radius=0.0, *, count=0, order="any", quotient=None, iterations=None, maximal=true, seed=0,
-    priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0, threads=0, progress=None
+    priority="squareness", given_positions=None, given_clearances=None, cosine=None, threads=0, progress=None
 ))]
 pub(crate) fn psp_sample(
     py: Python<'_>,
-    mesh: &Mesh,
-    radius: f64,
-    count: i128,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
+    #[pyo3(from_py_with = amount::radius)] radius: f64,
+    #[pyo3(from_py_with = number::count)] count: i128,
     order: &str,
-    quotient: Option<f64>,
-    iterations: Option<i128>,
-    maximal: bool,
-    seed: i128,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = maybe_whole::iterations)] iterations: Option<i128>,
+    #[pyo3(from_py_with = truth::maximal)] maximal: bool,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     priority: &str,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    cosine: f64,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let (low, high) = mesh.shared.bounds();
+    let sides = (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis]));
+    one_of(radius, count, sides, "mesh")?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let iterations = iterations.map(|iterations| natural::<u32>("iterations", iterations)).transpose()?;
     let request = psp::FlatOptions::new(radius)
         .count(natural("count", count)?)
@@ -111,10 +117,10 @@ pub(crate) fn psp_sample(
         .seed(natural("seed", seed)?)
         .priority(self::priority(priority)?)
         .given(given.samples()?)
-        .cosine(cosine);
+        .cosine(cosine.unwrap_or(-1.0));
     let (samples, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| request.sample(context, &mesh.shared, progress))?;
-    Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+    Points::surface(py, samples, mesh.shared.origin())?.with_report(py, PspReport::from(report))
 }
 
 pub(crate) fn priority(name: &str) -> PyResult<Priority> {
@@ -134,35 +140,35 @@ pub(crate) fn priority(name: &str) -> PyResult<Priority> {
 #[pyfunction]
 #[pyo3(signature = (
     mesh, radii, *, masks=None, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None,
-    cosine=-1.0, threads=0, progress=None
+    cosine=None, threads=0, progress=None
 ))]
 pub(crate) fn psp_sample_classes(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     radii: &Bound<'_, PyAny>,
     masks: Option<&Bound<'_, PyAny>>,
     order: &str,
-    quotient: Option<f64>,
-    seed: i128,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    cosine: f64,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let classes = matrix(radii)?;
     let masks = optional("masks", masks)?;
     let masks = masks.as_ref().map(Array::line).transpose()?;
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let request = psp::ClassOptions::default()
         .order(self::order(order, &[("quotient", quotient)])?)
         .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
         .seed(natural("seed", seed)?)
         .given(given.samples()?)
-        .cosine(cosine);
+        .cosine(cosine.unwrap_or(-1.0));
     let (samples, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
-    Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+    Points::surface(py, samples, mesh.shared.origin())?.with_report(py, PspReport::from(report))
 }
 
 /// The arguments that both adaptive calls share.
@@ -171,7 +177,7 @@ struct Adaptive<'py> {
     quotient: Option<f64>,
     seed: u64,
     cosine: f64,
-    given: GivenArrays<'py>,
+    given: GivenArrays<'py, 3>,
     watch: Watch<'py>,
 }
 
@@ -186,7 +192,7 @@ impl Adaptive<'_> {
             .given(given.samples()?);
         let (set, report) =
             watch.run(|context, progress| adaptive::sample(context, &mesh.shared, &request, progress))?;
-        Points::adaptive(py, set)?.with_report(py, PspReport::from(report))
+        Points::adaptive(py, set, mesh.shared.origin())?.with_report(py, PspReport::from(report))
     }
 }
 
@@ -201,28 +207,29 @@ impl Adaptive<'_> {
 /// Returns Points with radii and the report PspReport.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, vertex_radii, *, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None, cosine=-1.0,
+    mesh, vertex_radii, *, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None, cosine=None,
     threads=0, progress=None
 ))]
 pub(crate) fn psp_adaptive_sample(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     vertex_radii: &Bound<'_, PyAny>,
     order: &str,
-    quotient: Option<f64>,
-    seed: i128,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    cosine: f64,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let radii = Array::read("vertex_radii", vertex_radii)?;
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let watch = Watch::new(py, threads, progress)?;
     let order = self::order(order, &[("quotient", quotient)])?;
-    let request = Adaptive { order, quotient, seed: natural("seed", seed)?, cosine, given, watch };
-    request.sample(py, mesh, Radius::PerVertex(radii.line()?))
+    let request =
+        Adaptive { order, quotient, seed: natural("seed", seed)?, cosine: cosine.unwrap_or(-1.0), given, watch };
+    request.sample(py, &mesh, Radius::PerVertex(per_vertex("vertex_radii", &radii, &mesh)?))
 }
 
 /// A maximal set on a mesh whose density varies: the radius at a place follows from the density there.
@@ -240,23 +247,23 @@ pub(crate) fn psp_adaptive_sample(
 #[pyfunction]
 #[pyo3(signature = (
     mesh, density, *, radius=0.0, count=0.0, texture=None, order="any", quotient=None, seed=0, given_positions=None,
-    given_clearances=None, cosine=-1.0, threads=0, progress=None
+    given_clearances=None, cosine=None, threads=0, progress=None
 ))]
 pub(crate) fn psp_adaptive_with_density(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     density: &Bound<'_, PyAny>,
-    radius: f64,
-    count: f64,
+    #[pyo3(from_py_with = amount::radius)] radius: f64,
+    #[pyo3(from_py_with = amount::count)] count: f64,
     texture: Option<&Bound<'_, PyAny>>,
     order: &str,
-    quotient: Option<f64>,
-    seed: i128,
+    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    cosine: f64,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let scale = match (radius == 0.0, count == 0.0) {
         (false, true) => Scale::Radius(radius),
@@ -266,17 +273,27 @@ pub(crate) fn psp_adaptive_with_density(
     let values = Array::read("density", density)?;
     let texture = optional("texture", texture)?;
     let density = match &texture {
-        None => Density::PerVertex(values.line()?),
+        None => Density::PerVertex(per_vertex("density", &values, &mesh)?),
         Some(texture) => {
             let (values, [width, height]) = values.image()?;
             Density::Image { values, width, height, texture: places(texture)? }
         }
     };
-    let given = GivenArrays::read(given_positions, given_clearances)?;
+    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
     let watch = Watch::new(py, threads, progress)?;
     let order = self::order(order, &[("quotient", quotient)])?;
-    let request = Adaptive { order, quotient, seed: natural("seed", seed)?, cosine, given, watch };
-    request.sample(py, mesh, Radius::Density { density, scale })
+    let request =
+        Adaptive { order, quotient, seed: natural("seed", seed)?, cosine: cosine.unwrap_or(-1.0), given, watch };
+    request.sample(py, &mesh, Radius::Density { density, scale })
+}
+
+/// Values of the vertices.
+fn per_vertex<'a>(argument: &str, values: &'a Array<'_, f32>, mesh: &Mesh) -> PyResult<&'a [f32]> {
+    let (values, vertices) = (values.line()?, mesh.shared.positions().len());
+    if values.len() != vertices {
+        return Err(invalid(argument, format!("{} numbers for {vertices} vertices", values.len())));
+    }
+    Ok(values)
 }
 
 fn places<'a>(texture: &'a Array<'_, f32>) -> PyResult<Texture<'a>> {

@@ -7,11 +7,14 @@ use azulejo_core::dcr::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::argument::{choice, domain, natural};
+use crate::analysis::PlaneSet;
+use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_whole, natural, whole};
 use crate::array::{Array, line};
 use crate::error::invalid;
+use crate::frame::Frame;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::taken;
 use crate::watch::Watch;
 
 /// The report of a relaxation.
@@ -94,7 +97,7 @@ fn with_steps(domain: Domain, max_iterations: i128, tolerance: Option<f64>, seed
 /// Moves points of the plane until they are evenly spread: a blue-noise set without the look of a lattice.
 ///
 /// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
-/// domain_min, domain_max, boundary: as in kdrt_sample.
+/// domain_min, domain_max, boundary: as in kdrt_sample; default: those of positions that are Points.
 /// neighbourhood: "delaunay" (neighbours keep their distance and close holes) or "nearest" (they only repel).
 /// method: "momentum", or "thesis" for the algorithm of the thesis.
 /// max_iterations: the most steps.
@@ -109,35 +112,34 @@ fn with_steps(domain: Domain, max_iterations: i128, tolerance: Option<f64>, seed
 /// Returns Points, in the order of positions, with the report DcrReport.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", neighbourhood="delaunay",
+    positions, *, domain_min=None, domain_max=None, boundary=None, neighbourhood="delaunay",
     method="momentum", max_iterations=100, tolerance=None, seed=0, conflict_radius=None, attraction_radius=None,
     step=None, decay=None, neighbours=None, distribution=None, visits=None, convergence=None, threads=0, progress=None
 ))]
 pub(crate) fn dcr_relax(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
     neighbourhood: &str,
     method: &str,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    conflict_radius: Option<f64>,
-    attraction_radius: Option<f64>,
-    step: Option<f64>,
-    decay: Option<f64>,
-    neighbours: Option<i128>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = maybe_real::conflict_radius)] conflict_radius: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::attraction_radius)] attraction_radius: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::step)] step: Option<f64>,
+    #[pyo3(from_py_with = maybe_real::decay)] decay: Option<f64>,
+    #[pyo3(from_py_with = maybe_whole::neighbours)] neighbours: Option<i128>,
     distribution: Option<&str>,
     visits: Option<&str>,
     convergence: Option<&str>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let positions = Array::read("positions", positions)?;
-    let points = positions.rows()?;
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
+    let (points, domain) = (set.points()?, set.frame.domain);
     let neighbourhoods = [("delaunay", Neighbourhood::Delaunay), ("nearest", Neighbourhood::Nearest)];
     let neighbourhood = choice("neighbourhood", neighbourhood, &neighbourhoods)?;
     let request = if choice("method", method, &[("momentum", false), ("thesis", true)])? {
@@ -181,7 +183,7 @@ pub(crate) fn dcr_relax(
     let request = request.tolerance(tolerance.unwrap_or(request.tolerance));
     let (relaxed, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| dcr::relax(context, &request, points, progress))?;
-    Points::plane(py, relaxed)?.with_report(py, DcrReport::from(report))
+    Points::plane(py, relaxed, &set.frame)?.with_report(py, DcrReport::from(report))
 }
 
 /// Moves points of several classes until they are spread more evenly, all together and each class by itself, such as those
@@ -196,25 +198,26 @@ pub(crate) fn dcr_relax(
 /// class_relative_covering_radius for the classes up to the highest.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, classes, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
+    positions, classes, *, domain_min=None, domain_max=None, boundary=None, max_iterations=100,
     tolerance=None, seed=0, threads=0, progress=None
 ))]
 pub(crate) fn dcr_relax_classes(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
     classes: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let (positions, classes) = (Array::read("positions", positions)?, Array::read("classes", classes)?);
-    let (points, classes) = (positions.rows()?, classes.line()?);
-    let request = with_steps(domain(domain_min, domain_max, boundary)?, max_iterations, tolerance, seed)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
+    let classes = Array::read("classes", classes)?;
+    let (points, classes) = (set.points()?, classes.line()?);
+    let request = with_steps(set.frame.domain, max_iterations, tolerance, seed)?;
     let (samples, report, each) = Watch::new(py, threads, progress)?
         .run(|context, progress| dcr::relax_classes(context, &request, points, classes, progress))?;
     let report = DcrReport {
@@ -225,7 +228,7 @@ pub(crate) fn dcr_relax_classes(
         )),
         ..report.into()
     };
-    Points::plane(py, samples)?.with_classes(py, classes.to_vec()).with_report(py, report)
+    Points::plane(py, samples, &set.frame)?.with_classes(py, classes.to_vec()).with_report(py, report)
 }
 
 /// Moves points of the plane until they are spread as a density wants: stippling.
@@ -237,29 +240,30 @@ pub(crate) fn dcr_relax_classes(
 /// Returns Points, in the order of positions, with the report DcrReport.
 #[pyfunction]
 #[pyo3(signature = (
-    positions, density, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", max_iterations=100,
+    positions, density, *, domain_min=None, domain_max=None, boundary=None, max_iterations=100,
     tolerance=None, seed=0, threads=0, progress=None
 ))]
 pub(crate) fn dcr_relax_density(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
     density: &Bound<'_, PyAny>,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
-    boundary: &str,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let (positions, density) = (Array::read("positions", positions)?, Array::read("density", density)?);
-    let (points, (values, [width, height])) = (positions.rows()?, density.image()?);
-    let request = with_steps(domain(domain_min, domain_max, boundary)?, max_iterations, tolerance, seed)?;
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
+    let density = Array::read("density", density)?;
+    let (points, (values, [width, height])) = (set.points()?, density.image()?);
+    let request = with_steps(set.frame.domain, max_iterations, tolerance, seed)?;
     let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| {
         dcr::relax_with_density(context, &request, &Density::Image { values, width, height }, points, progress)
     })?;
-    Points::plane(py, relaxed)?.with_report(py, DcrReport::from(report))
+    Points::plane(py, relaxed, &set.frame)?.with_report(py, DcrReport::from(report))
 }
 
 /// Random points of a density, for dcr_relax_density to start from.
@@ -267,28 +271,28 @@ pub(crate) fn dcr_relax_density(
 /// density: as in dcr_relax_density. count: their number. The others are those of kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    density, count, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", seed=0, threads=0,
+    density, count, *, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0,
     progress=None
 ))]
 pub(crate) fn dcr_scatter(
     py: Python<'_>,
     density: &Bound<'_, PyAny>,
-    count: i128,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = whole::count)] count: i128,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let density = Array::read("density", density)?;
     let (values, [width, height]) = density.image()?;
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let (count, seed) = (natural("count", count)?, natural("seed", seed)?);
     let samples = Watch::new(py, threads, progress)?.run(|context, progress| {
-        dcr::scatter(context, &domain, &Density::Image { values, width, height }, count, seed, progress)
+        dcr::scatter(context, &frame.domain, &Density::Image { values, width, height }, count, seed, progress)
     })?;
-    Points::plane(py, samples)
+    Points::plane(py, samples, &frame)
 }
 
 /// Moves samples along a mesh until they are evenly spread; their smallest distance does not fall.
@@ -304,14 +308,14 @@ pub(crate) fn dcr_scatter(
 ))]
 pub(crate) fn dcr_surface_relax(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     triangles: &Bound<'_, PyAny>,
     barycentrics: &Bound<'_, PyAny>,
-    max_iterations: i128,
-    tolerance: Option<f64>,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
     let (triangles, barycentrics) = (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
     let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);
@@ -321,5 +325,5 @@ pub(crate) fn dcr_surface_relax(
     request = request.tolerance(tolerance.unwrap_or(request.tolerance));
     let (relaxed, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| surface::relax(context, &mesh.shared, triangles, barycentrics, &request, progress))?;
-    Points::surface(py, relaxed)?.with_report(py, DcrReport::from(report))
+    Points::surface(py, relaxed, mesh.shared.origin())?.with_report(py, DcrReport::from(report))
 }

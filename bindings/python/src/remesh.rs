@@ -3,8 +3,10 @@
 use azulejo_core::dcr::surface::{RemeshReport, remesh};
 use pyo3::prelude::*;
 
+use crate::argument::{callable, whole};
 use crate::array::Array;
 use crate::mesh::Mesh;
+use crate::taken;
 use crate::watch::Watch;
 
 /// The mesh that dcr_remesh returns: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0
@@ -73,11 +75,11 @@ impl From<RemeshReport> for DcrRemeshReport {
 #[pyo3(signature = (mesh, triangles, barycentrics, *, threads=0, progress=None))]
 pub(crate) fn dcr_remesh(
     py: Python<'_>,
-    mesh: &Mesh,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     triangles: &Bound<'_, PyAny>,
     barycentrics: &Bound<'_, PyAny>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<(Mesh, DcrRemeshReport)> {
     let (triangles, barycentrics) = (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
     let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);

@@ -7,10 +7,12 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::analysis::PlaneSet;
-use crate::argument::natural;
+use crate::argument::{callable, maybe_pair, maybe_triple, natural, real, whole};
 use crate::array::{Array, line};
-use crate::error::{invalid, raised};
+use crate::error::{invalid, raised, raised_as};
+use crate::frame::Positions;
 use crate::mesh::Mesh;
+use crate::taken;
 use crate::watch::Watch;
 
 /// The power spectrum of points of the plane, by fast Fourier transform in double arithmetic.
@@ -45,19 +47,19 @@ pub(crate) struct SpectrumReport {
 impl Spectrum {
     #[new]
     #[pyo3(signature = (
-        positions, size, frequency_stride=1, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", threads=0,
+        positions, size, frequency_stride=1, *, domain_min=None, domain_max=None, boundary=None, threads=0,
         progress=None
     ))]
     fn new(
         py: Python<'_>,
         positions: &Bound<'_, PyAny>,
-        size: i128,
-        frequency_stride: i128,
-        domain_min: [f64; 2],
-        domain_max: [f64; 2],
-        boundary: &str,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = whole::size)] size: i128,
+        #[pyo3(from_py_with = whole::frequency_stride)] frequency_stride: i128,
+        #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+        #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+        boundary: Option<&str>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
         let (size, stride) = (natural("size", size)?, natural("frequency_stride", frequency_stride)?);
@@ -71,7 +73,10 @@ impl Spectrum {
     #[staticmethod]
     fn mean(spectra: Vec<PyRef<'_, Self>>) -> PyResult<Self> {
         let periodograms: Vec<_> = spectra.iter().map(|spectrum| spectrum.periodogram.clone()).collect();
-        Ok(Self { periodogram: Periodogram::mean(&periodograms).map_err(raised)? })
+        Ok(Self {
+            periodogram: Periodogram::mean(&periodograms)
+                .map_err(|error| raised_as(error, "periodograms", "spectra"))?,
+        })
     }
 
     /// The number of frequencies per side.
@@ -94,7 +99,7 @@ impl Spectrum {
     ///
     /// Returns float64, shape (a, 4).
     #[pyo3(signature = (width=0.05))]
-    fn radial(&self, py: Python<'_>, width: f64) -> PyResult<Py<PyArray2<f64>>> {
+    fn radial(&self, py: Python<'_>, #[pyo3(from_py_with = real::width)] width: f64) -> PyResult<Py<PyArray2<f64>>> {
         let row = |Annulus { count, frequency, power, anisotropy }| [frequency, power, anisotropy, count as f64];
         crate::array::table(py, self.periodogram.radial(width).map_err(raised)?.into_iter().map(row).collect())
     }
@@ -133,7 +138,7 @@ fn unless_too_small(figure: Result<f64, Error>) -> PyResult<Option<f64>> {
 /// the spectrum. Lengths are in mean spacings, sqrt(area / count).
 ///
 /// mesh: a Mesh. positions, normals: of the samples, float32, shape (n, 3), n at least 2, as in Points.
-/// direction: three numbers; its projection on the tangent plane is the x axis of the differences.
+/// direction: three numbers; its projection on the tangent plane is the x axis of the differences. Default: (1, 0, 0).
 /// seed: 0 to 2**64 - 1, of the random points that the pairs are compared with.
 /// threads, progress: as in plane_smallest_distance.
 #[pyclass(frozen, module = "azulejo")]
@@ -144,20 +149,21 @@ pub(crate) struct Differences {
 #[pymethods]
 impl Differences {
     #[new]
-    #[pyo3(signature = (mesh, positions, normals, direction=[1.0, 0.0, 0.0], *, seed=0, threads=0, progress=None))]
+    #[pyo3(signature = (mesh, positions, normals, direction=None, *, seed=0, threads=0, progress=None))]
     fn new(
         py: Python<'_>,
-        mesh: &Mesh,
+        #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
         positions: &Bound<'_, PyAny>,
         normals: &Bound<'_, PyAny>,
-        direction: [f64; 3],
-        seed: i128,
-        threads: i128,
-        progress: Option<Py<PyAny>>,
+        #[pyo3(from_py_with = maybe_triple::direction)] direction: Option<[f64; 3]>,
+        #[pyo3(from_py_with = whole::seed)] seed: i128,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let (positions, normals) = (Array::read("positions", positions)?, Array::read("normals", normals)?);
-        let (positions, normals) = (positions.rows()?, normals.rows()?);
-        let seed = natural("seed", seed)?;
+        let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
+        let normals = Array::read("normals", normals)?;
+        let (positions, normals) = (positions.get()?, normals.rows()?);
+        let (seed, direction) = (natural("seed", seed)?, direction.unwrap_or([1.0, 0.0, 0.0]));
         let differences = Watch::new(py, threads, progress)?.run(|context, progress| {
             surface_differences(context, &mesh.shared, positions, normals, direction, seed, progress)
         })?;

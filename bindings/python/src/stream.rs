@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use azulejo_core::kdrt::Plane;
 use pyo3::prelude::*;
 
-use crate::argument::domain;
-use crate::array::table;
+use crate::argument::{callable, called, maybe_pair, real, whole};
+use crate::frame::{Frame, framed};
 use crate::plane::Request;
 use crate::watch::{Watch, ask, flow};
 
@@ -22,31 +22,32 @@ const PATTERN_SHARE: f64 = 0.05;
 /// The others are those of kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
-    visit, radius, *, domain_min=[0.0, 0.0], domain_max=[1.0, 1.0], boundary="periodic", leaf_size=20.0, seed=0,
+    visit, radius, *, domain_min=None, domain_max=None, boundary="periodic", leaf_size=20.0, seed=0,
     given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn kdrt_stream(
     py: Python<'_>,
-    visit: Py<PyAny>,
-    radius: f64,
-    domain_min: [f64; 2],
-    domain_max: [f64; 2],
+    #[pyo3(from_py_with = called::visit)] visit: Py<PyAny>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
     boundary: &str,
-    leaf_size: f64,
-    seed: i128,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let domain = domain(domain_min, domain_max, boundary)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
     let given = (given_positions, given_clearances);
-    let request = Request::new(domain, leaf_size, seed, ("any", None, None), given)?;
+    let request = Request::new(&frame, leaf_size, seed, ("any", None, None), given)?;
     let request = request.by_radius(radius)?;
     let mut failed = None;
     let done = Watch::new(py, threads, progress)?.run(|context, progress| {
-        let pass =
-            |part: &[[f32; 2]]| flow(Python::attach(|py| ask(py, &visit, table(py, part.to_vec())?)), &mut failed);
+        let pass = |part: &[[f32; 2]]| {
+            flow(Python::attach(|py| ask(py, &visit, framed(py, part.to_vec(), frame.origin)?)), &mut failed)
+        };
         let part = |from: f64, to: f64| {
             move |done: f64| progress.map_or(ControlFlow::Continue(()), |tell| tell(from + (to - from) * done))
         };

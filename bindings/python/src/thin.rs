@@ -1,12 +1,14 @@
 //! Some points of a cloud, far from each other.
 
+use azulejo_core::Centred;
 use azulejo_core::thin::{self as core, Options};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::argument::{natural, order};
-use crate::array::{Array, line, line_if_any};
+use crate::argument::{amount, callable, natural, number, order, whole};
+use crate::array::{line, line_if_any};
 use crate::error::invalid;
+use crate::frame::Positions;
 use crate::watch::Watch;
 
 /// Points that thin() selected; len() is their number n.
@@ -35,7 +37,8 @@ impl Selection {
 
 /// Selects points of a cloud that are far from each other and near to all the others.
 ///
-/// positions: float32, shape (n, 2) or (n, 3).
+/// positions: shape (n, 2) or (n, 3), any real numbers. Doubles are rounded to float32 near an origin of their own, and
+///     the radius is lengthened by what that moved a pair at most: distances of the doubles are kept.
 /// radius: the least distance of selected points; in any order, each point is kept that no kept one of lower index is
 ///     nearer to. 0 sets none.
 /// count: the number of points to select, farthest-first. 0 sets none.
@@ -50,28 +53,34 @@ impl Selection {
 pub(crate) fn thin(
     py: Python<'_>,
     positions: &Bound<'_, PyAny>,
-    radius: f64,
-    count: i128,
+    #[pyo3(from_py_with = amount::radius)] radius: f64,
+    #[pyo3(from_py_with = number::count)] count: i128,
     order: &str,
-    seed: i128,
-    threads: i128,
-    progress: Option<Py<PyAny>>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Selection> {
-    let positions = Array::read("positions", positions)?;
+    let positions = Positions::read("positions", positions)?;
     let order = self::order(order, &[])?;
-    let request =
-        Options::default().radius(radius).count(natural("count", count)?).order(order).seed(natural("seed", seed)?);
+    let request = Options::default().count(natural("count", count)?).order(order).seed(natural("seed", seed)?);
     let watch = Watch::new(py, threads, progress)?;
-    let core::Selection { indices, ranks, .. } = match *positions.shape() {
-        [_, 2] => {
-            let points = positions.rows::<2>()?;
-            watch.run(|context, progress| core::thin(context, &request, points, progress))?
-        }
-        [_, 3] | [0] => {
-            let points = positions.rows::<3>()?;
-            watch.run(|context, progress| core::thin(context, &request, points, progress))?
-        }
+    let core::Selection { indices, ranks, .. } = match positions.shape(py)?[..] {
+        [_, 2] => select::<2>(positions, radius, request, watch)?,
+        [_, 3] | [0] => select::<3>(positions, radius, request, watch)?,
         ref shape => return Err(invalid("positions", format!("its shape is {shape:?}, not [n, 2] or [n, 3]"))),
     };
     Ok(Selection { count: indices.len(), indices: line(py, indices), ranks: line_if_any(py, ranks) })
+}
+
+/// Selects points that are the radius apart as the caller gave them.
+fn select<const N: usize>(
+    positions: Positions,
+    radius: f64,
+    request: Options,
+    watch: Watch,
+) -> PyResult<core::Selection> {
+    let (rows, _, rounding) = positions.centred::<N>()?;
+    let points = rows.get()?;
+    let request = request.radius(Centred::<N>::lengthened(radius, rounding));
+    watch.run(|context, progress| core::thin(context, &request, points, progress))
 }

@@ -51,7 +51,7 @@ impl Surface {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let output = self.picture.open()?;
         let mesh = input::mesh(&self.mesh)?;
-        let samples = self.format.read_samples(&self.samples)?.positions;
+        let samples = self.format.read_samples(&self.samples, mesh.origin())?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
         picture(context, &name, &stage, self.picture.size, &output)

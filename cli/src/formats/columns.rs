@@ -56,6 +56,19 @@ impl Display for Number {
     }
 }
 
+/// Writes a position relative to an origin: as floats if that is 0, and in the frame of the origin as doubles otherwise.
+pub fn write_position(writer: &mut impl Write, position: [f32; 3], origin: [f64; 3]) -> io::Result<()> {
+    if origin == [0.0; 3] {
+        return write_floats(writer, &[position]);
+    }
+    placed(position, origin).iter().try_for_each(|x| writer.write_all(&x.to_le_bytes()))
+}
+
+/// A position in the frame of its origin.
+pub fn placed(position: [f32; 3], origin: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|axis| origin[axis] + f64::from(position[axis]))
+}
+
 /// Writes vectors as little-endian floats.
 pub fn write_floats<const N: usize>(writer: &mut impl Write, vectors: &[[f32; N]]) -> io::Result<()> {
     vectors.iter().flatten().try_for_each(|x| writer.write_all(&x.to_le_bytes()))

@@ -42,7 +42,7 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     for row in 0..array.count {
         let at = |problem| format!("row {row}: {problem}");
         let number = |column: &Column| column.number.read(&body[column.offset + row * column.stride..]);
-        let numbers = array.columns.floats.each_ref().map(|column| column.as_ref().map_or(0.0, number) as f32);
+        let numbers = array.columns.floats.each_ref().map(|column| column.as_ref().map_or(0.0, number));
         let triangle = array.columns.on_mesh().map_or(Ok(0), |column| set::triangle(number(column))).map_err(at)?;
         points.push(numbers, triangle).map_err(at)?;
     }
@@ -215,14 +215,15 @@ pub fn write_plane(writer: &mut impl Write, table: &PlaneTable) -> io::Result<()
     } else {
         write_header(writer, &format!("[('x', '<f4'), ('y', '<f4'){more}]"), &format!("({count},)"))?;
     }
-    table.write_binary(writer)
+    table.write_binary::<2>(writer)
 }
 
 /// Writes samples of a surface as a structured array.
 pub fn write_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
     let more = fields(table.more_columns());
+    let float = if table.has_origin() { "<f8" } else { "<f4" };
     let fields = format!(
-        "[('position', '<f4', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,)){more}]"
+        "[('position', '{float}', (3,)), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,)){more}]"
     );
     write_header(writer, &fields, &format!("({},)", table.samples.len()))?;
     table.write_binary(writer)

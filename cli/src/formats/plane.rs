@@ -33,10 +33,13 @@ impl<'a> PlaneTable<'a> {
         [rank, class].into_iter().flatten()
     }
 
-    /// Writes all rows as binary numbers, little-endian and without gaps: x y, and rank and class if there are any.
-    pub fn write_binary(&self, writer: &mut impl Write) -> io::Result<()> {
+    /// Writes all rows as binary numbers, little-endian and without gaps: x y, zeros for the other axes, and rank and class
+    /// if there are any.
+    pub fn write_binary<const AXES: usize>(&self, writer: &mut impl Write) -> io::Result<()> {
         (0..self.points.len()).try_for_each(|i| {
-            write_floats(writer, &self.points[i..=i])?;
+            let mut place = [0.0; AXES];
+            place[..2].copy_from_slice(&self.points[i]);
+            write_floats(writer, &[place])?;
             self.more_numbers(i).try_for_each(|number| writer.write_all(&number.bytes()))
         })
     }

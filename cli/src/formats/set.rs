@@ -1,6 +1,6 @@
 //! Sets of points, in the plane or in space.
 
-use azulejo::Domain;
+use azulejo::{Centred, Domain};
 
 use super::columns::CLASS;
 
@@ -56,7 +56,7 @@ impl<T> Columns<T> {
 pub struct PointSet {
     has_z: bool,
     /// z is 0 where the file has none.
-    positions: Vec<[f32; 3]>,
+    positions: Vec<[f64; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     on_mesh: Option<OnMesh>,
     /// The numbers of the column of clearances or, without one, of radii; and the number of this column.
@@ -101,12 +101,13 @@ pub struct SampleSet {
 
 impl PointSet {
     /// Adds a point: the numbers of [`NAMES`], 0 where there is no column, and the triangle.
-    pub fn push(&mut self, numbers: [f32; NAMES.len()], triangle: u32) -> Result<(), String> {
+    pub fn push(&mut self, exact: [f64; NAMES.len()], triangle: u32) -> Result<(), String> {
+        let numbers = exact.map(|x| x as f32);
         if let Some(i) = numbers[..COORDINATES].iter().position(|x| !x.is_finite()) {
             return Err(format!("{} is {}, not finite", NAMES[i], numbers[i]));
         }
-        let [x, y, z, nx, ny, nz, u, v, ..] = numbers;
-        self.positions.push([x, y, z]);
+        let [_, _, _, nx, ny, nz, u, v, ..] = numbers;
+        self.positions.push([exact[0], exact[1], exact[2]]);
         if let Some(normals) = &mut self.normals {
             normals.push([nx, ny, nz]);
         }
@@ -124,7 +125,7 @@ impl PointSet {
     }
 
     /// The positions in space, in the plane z = 0 where there is no z.
-    pub fn into_positions(self) -> Vec<[f32; 3]> {
+    pub fn into_positions(self) -> Vec<[f64; 3]> {
         self.positions
     }
 
@@ -149,18 +150,27 @@ impl PointSet {
         if !self.is_plane() {
             return Err(format!("holds points in three dimensions, not in the plane: {instead}"));
         }
-        let points = self.positions.iter().map(|&[x, y, _]| [x, y]).collect();
+        let exact: Vec<_> = self.positions.iter().map(|&[x, y, _]| [x, y]).collect();
+        let Centred { positions: points, origin, .. } = Centred::of(&exact);
+        if origin != [0.0; 2] {
+            let [x, y] = origin;
+            return Err(format!(
+                "holds coordinates that floats would displace: subtract {x} from x and {y} from y first"
+            ));
+        }
         let clearances = self.clearances.map(|(_, clearances)| clearances);
         Ok(PlaneSet { points, clearances, classes: whole(self.classes), domain: self.domain })
     }
 
-    /// The set as one of samples in space.
-    pub fn into_samples(self) -> Result<SampleSet, String> {
-        if !self.has_z {
+    /// The set as one of samples in space, relative to an origin: that of the mesh.
+    pub fn into_samples(self, origin: [f64; 3]) -> Result<SampleSet, String> {
+        // Sets of the plane have a z in PLY files, and name their domain there.
+        if !self.has_z || self.domain.is_some() {
             return Err("holds points in the plane, without z, and not samples of a mesh".to_owned());
         }
         let Self { positions, normals, on_mesh, clearances, classes, .. } = self;
         let clearances = clearances.map(|(_, clearances)| clearances);
+        let positions = Centred::around(&positions, origin).positions;
         Ok(SampleSet { positions, normals: normals.unwrap_or_default(), on_mesh, clearances, classes: whole(classes) })
     }
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use azulejo::Points;
 
-use super::columns::{CLASS, Column, Number, RADIUS, RANK, write_floats};
+use super::columns::{CLASS, Column, Number, RADIUS, RANK, placed, write_floats, write_position};
 
 /// Samples of a surface with all of their columns.
 pub struct SurfaceTable<'a> {
@@ -13,9 +13,26 @@ pub struct SurfaceTable<'a> {
     pub normals: &'a [[f32; 3]],
     /// The radius of each sample, where they differ.
     pub radii: Option<&'a [f64]>,
+    /// What positions are relative to: the origin of the mesh. If it is not 0, positions are written as doubles.
+    pub origin: [f64; 3],
 }
 
 impl SurfaceTable<'_> {
+    /// True if positions are written as doubles.
+    pub fn has_origin(&self) -> bool {
+        self.origin != [0.0; 3]
+    }
+
+    /// The coordinates of a sample as text.
+    pub fn position(&self, sample: usize) -> [String; 3] {
+        let position = self.samples.positions[sample];
+        if self.has_origin() {
+            placed(position, self.origin).map(|x| x.to_string())
+        } else {
+            position.map(|x| x.to_string())
+        }
+    }
+
     /// The columns that only some sets have.
     pub fn more_columns(&self) -> impl Iterator<Item = Column> {
         let Points { ranks, classes, .. } = self.samples;
@@ -38,7 +55,8 @@ impl SurfaceTable<'_> {
     pub fn write_binary(&self, writer: &mut impl Write) -> io::Result<()> {
         (0..self.samples.len()).try_for_each(|i| {
             let Points { positions, triangles, barycentrics, .. } = self.samples;
-            write_floats(writer, &[positions[i], self.normals[i]])?;
+            write_position(writer, positions[i], self.origin)?;
+            write_floats(writer, &[self.normals[i]])?;
             writer.write_all(&triangles[i].to_le_bytes())?;
             write_floats(writer, &[barycentrics[i]])?;
             self.more_numbers(i).try_for_each(|number| writer.write_all(&number.bytes()))

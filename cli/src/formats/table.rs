@@ -113,17 +113,17 @@ impl Layout {
     }
 
     /// The numbers of a line, 0 where there is no column, and the triangle.
-    fn read(&self, words: &[&str]) -> Result<([f32; NAMES.len()], u32), String> {
+    fn read(&self, words: &[&str]) -> Result<([f64; NAMES.len()], u32), String> {
         if words.len() != self.width {
             return Err(format!("has {} columns, and line {} has {}", words.len(), self.line, self.width));
         }
-        let mut numbers = [0.0f32; NAMES.len()];
+        let mut numbers = [0.0; NAMES.len()];
         for ((number, column), name) in numbers.iter_mut().zip(self.columns.floats).zip(NAMES) {
             let Some(column) = column else { continue };
             *number = match words[column].parse() {
                 Ok(number) => number,
                 // Classes may have names, as long as no command needs them.
-                Err(_) if name == CLASS.name => f32::NAN,
+                Err(_) if name == CLASS.name => f64::NAN,
                 Err(_) => return Err(format!("{:?} is not a number", shortened(words[column]))),
             };
         }
@@ -147,7 +147,7 @@ pub fn write_csv_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::R
     let SurfaceTable { samples, normals, .. } = table;
     write_csv_header(writer, "x,y,z,nx,ny,nz,triangle,u,v", table.more_columns())?;
     (0..samples.len()).try_for_each(|i| {
-        let ([x, y, z], [nx, ny, nz], [u, v]) = (samples.positions[i], normals[i], samples.barycentrics[i]);
+        let ([x, y, z], [nx, ny, nz], [u, v]) = (table.position(i), normals[i], samples.barycentrics[i]);
         write!(writer, "{x},{y},{z},{nx},{ny},{nz},{},{u},{v}", samples.triangles[i])?;
         end_csv_row(writer, table.more_numbers(i))
     })
@@ -169,8 +169,10 @@ pub fn write_xyz_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Resu
 }
 
 pub fn write_xyz_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
-    std::iter::zip(&table.samples.positions, table.normals)
-        .try_for_each(|([x, y, z], [nx, ny, nz])| writeln!(writer, "{x} {y} {z} {nx} {ny} {nz}"))
+    (0..).zip(table.normals).try_for_each(|(i, [nx, ny, nz])| {
+        let [x, y, z] = table.position(i);
+        writeln!(writer, "{x} {y} {z} {nx} {ny} {nz}")
+    })
 }
 
 #[cfg(test)]
@@ -193,7 +195,7 @@ mod tests {
         ] {
             assert_eq!(points(text), [[1.0, 2.5], [-3.0, 4e-3]], "{text}");
         }
-        let samples = |text: &str| parse(text.as_bytes()).unwrap().into_samples().unwrap();
+        let samples = |text: &str| parse(text.as_bytes()).unwrap().into_samples([0.0; 3]).unwrap();
         let set = samples("1 2 3 0 0 1\n");
         assert_eq!((&set.positions[..], &set.normals[..]), (&[[1.0, 2.0, 3.0]][..], &[[0.0, 0.0, 1.0]][..]));
         let set = samples("1 2 3 255 0\n");

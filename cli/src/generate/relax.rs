@@ -123,12 +123,12 @@ impl Relax {
     fn run_on(&self, context: &Context, mesh: &Path) -> Result<()> {
         let output = self.common.destination.open_surface()?;
         let remeshed = self.remesh.as_deref().map(|path| Output::of_format("ply", path)).transpose()?;
-        let set = self.format.read_samples(&self.input)?;
+        let mesh = input::mesh(mesh)?;
+        let set = self.format.read_samples(&self.input, mesh.origin())?;
         if self.classes(&set.classes)?.is_some() {
             let reason = "has classes, which are relaxed in the plane only: --no-classes takes the samples for one set";
             return Err(self.refused(reason));
         }
-        let mesh = input::mesh(mesh)?;
         let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| {
             self.refused("does not say on which triangle each sample is, and where: no triangle, u and v")
         })?;
@@ -140,7 +140,8 @@ impl Relax {
         })
         .map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        output.write_surface(&SurfaceTable { samples: &relaxed, normals: &relaxed.normals, radii: None })?;
+        let normals = &relaxed.normals;
+        output.write_surface(&SurfaceTable { samples: &relaxed, normals, radii: None, origin: mesh.origin() })?;
         report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
         remeshed.map_or(Ok(()), |output| write_remeshed(context, &mesh, &relaxed, &output))
     }
@@ -151,7 +152,7 @@ fn write_remeshed(context: &Context, mesh: &Mesh, samples: &Points<3>, output: &
     let (made, done) = watched("remesh", |progress| {
         surface::remesh(context, mesh, &samples.triangles, &samples.barycentrics, Some(progress))
     })?;
-    ply::write_mesh(output, made.positions(), made.triangles())?;
+    ply::write_mesh(output, made.positions(), made.triangles(), made.origin())?;
     let quality = done.quality;
     let kind = match (quality.is_closed_manifold(), quality.is_manifold()) {
         (true, _) => "closed manifold".to_owned(),

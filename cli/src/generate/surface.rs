@@ -191,7 +191,8 @@ impl Surface {
             let reason = format!("{} has none to be interpolated", self.mesh.display());
             return Err(Error::InvalidArgument { argument: "--normals", reason });
         }
-        let around = self.around()?;
+        let origin = mesh.origin();
+        let around = self.around(origin)?;
         let made = match (&self.density.radius_from, &self.density_from) {
             (Some(attribute), _) => self.adaptive(context, &mesh, &file, (attribute, None), around.given()),
             (None, Some(attribute)) => {
@@ -214,15 +215,15 @@ impl Surface {
             Normals::Geometric => &samples.normals,
             Normals::Interpolated => &samples.interpolated_normals,
         };
-        output.write_surface(&SurfaceTable { samples: &samples, normals, radii: radii.as_deref() })?;
+        output.write_surface(&SurfaceTable { samples: &samples, normals, radii: radii.as_deref(), origin })?;
         report(&output.output, samples.len(), &about, seconds);
         Ok(())
     }
 
     /// The given points.
-    fn around(&self) -> Result<Around<3>> {
+    fn around(&self, origin: [f64; 3]) -> Result<Around<3>> {
         let Some(path) = &self.given else { return Ok(Around::default()) };
-        let given = read_given(path)?;
+        let given = read_given(path, origin)?;
         Ok(Around::new(given.positions, given.clearances, self.clearance))
     }
 

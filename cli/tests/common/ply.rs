@@ -15,9 +15,17 @@ pub fn floats(file: &[u8], width: usize) -> (String, Vec<Vec<f32>>) {
     (header, numbers.chunks(width).map(<[f32]>::to_vec).collect())
 }
 
+/// [`floats`] of a set of the plane, without the column of z, which is 0: `width` numbers per vertex are left.
+pub fn flat(file: &[u8], width: usize) -> (String, Vec<Vec<f32>>) {
+    let (header, mut rows) = floats(file, width + 1);
+    assert!(header.contains("property float y\nproperty float z\n"), "{header}");
+    assert!(rows.iter_mut().all(|row| row.remove(2) == 0.0));
+    (header, rows)
+}
+
 /// The points of a PLY file.
 pub fn points(workshop: &Workshop, name: &str) -> Vec<Vec<f32>> {
-    floats(&fs::read(workshop.path(name)).unwrap(), 2).1
+    flat(&fs::read(workshop.path(name)).unwrap(), 2).1
 }
 
 /// The smallest distance on the unit torus of points from a place.

@@ -71,6 +71,10 @@ pub unsafe extern "C" fn azulejo_mesh_create(
 /// which are not merged. Normals of OBJ corners (vn) and of PLY vertices (nx ny nz) are read; a
 /// corner without one gets a zero normal (see azulejo_mesh_with_normals). All else is ignored.
 ///
+/// Coordinates in text or doubles, so far from the origin that floats would displace them by more
+/// than a millionth of the mesh's size, are made relative to an origin of the mesh, which
+/// azulejo_mesh_origin returns: so georeferenced files keep their shape. It is zero otherwise.
+///
 /// path: the file name, terminated by a NUL, in the encoding of the system, on Windows in UTF-8.
 ///
 /// O(size of the file), on the calling thread, block by block.
@@ -223,7 +227,7 @@ pub unsafe extern "C" fn azulejo_mesh_deform(
 ///
 /// triangles: one for each place. Triangles without area and masked triangles are allowed.
 ///
-/// barycentrics: u v of each place.
+/// barycentrics: u v of each place, inside its triangle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_points(
     mesh: *const azulejo_mesh,
@@ -289,6 +293,19 @@ pub unsafe extern "C" fn azulejo_mesh_indices(mesh: *const azulejo_mesh) -> *con
 pub unsafe extern "C" fn azulejo_mesh_area(mesh: *const azulejo_mesh) -> f64 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(0.0, |mesh| mesh.shared.area())
+}
+
+/// Writes to `origin`, x y z, what the positions of the mesh and of its samples are relative to, in
+/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for other meshes, and
+/// for NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_origin(mesh: *const azulejo_mesh, origin: *mut f64) {
+    // SAFETY: handed on from the caller.
+    let found = unsafe { handles::peek("mesh", mesh) }.map_or([0.0; 3], |mesh| mesh.shared.origin());
+    if !origin.is_null() {
+        // SAFETY: the caller has room for three numbers there, if it is not NULL.
+        unsafe { std::ptr::copy_nonoverlapping(found.as_ptr(), origin, found.len()) };
+    }
 }
 
 /// Frees the mesh; its memory is released once no psp handle uses it any more.

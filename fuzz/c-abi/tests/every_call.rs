@@ -298,6 +298,10 @@ fn surfaces() {
         )
     };
     assert_eq!((normal.read(azulejo_mesh_has_normals), masked.read(azulejo_mesh_vertex_count)), (1, 4));
+    let mut origin = [9.0; 3];
+    // SAFETY: NULL is no mesh, and there is room for three numbers.
+    unsafe { azulejo_mesh_origin(std::ptr::null(), origin.as_mut_ptr()) };
+    assert_eq!(origin, [0.0; 3]);
     // SAFETY: four vertices, two triangles.
     unsafe {
         assert_eq!(mesh.read(azulejo_mesh_positions).add(11).read(), 0.5);

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::analysis::AreaSampler;
 use crate::check;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::index::{Grid2, Grid3, PointTree};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::math::{distance_squared, hypot};
@@ -187,14 +187,14 @@ impl SearchCell {
 
 /// The share of random points of the surface that are farther than `radius` from every sample (Euclidean distance, in
 /// `f64`): an estimate of the uncovered part of its area, with a standard error of at most 0.5 / sqrt(`probes`).
-/// 0 without probes, and where the mesh's mask leaves no area.
+/// 0 where the mesh's mask leaves no area.
 ///
 /// Probes are uniform by area and keyed by `seed` and their number. They miss small gaps: this estimates a share, while
 /// [`surface_coverage`] proves that there is none.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for
-/// positions that are not finite; [`Error::Cancelled`](crate::Error::Cancelled).
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite, for positions
+/// that are not finite and for no `probes`; [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn surface_uncovered_fraction(
     context: &Context,
     mesh: &Mesh,
@@ -206,6 +206,9 @@ pub fn surface_uncovered_fraction(
 ) -> Result<f64> {
     check::radius(radius)?;
     check::finite("positions", "position", positions)?;
+    if probes == 0 {
+        return Err(Error::invalid("probes", "0, which say nothing of the surface"));
+    }
     if mesh.area() == 0.0 {
         return Ok(0.0);
     }
@@ -226,7 +229,7 @@ pub fn surface_uncovered_fraction(
             Ok(())
         })
     })?;
-    Ok(uncovered as f64 / probes.max(1) as f64)
+    Ok(uncovered as f64 / probes as f64)
 }
 
 /// The grid is searched within this many mean spacings, slightly farther than the largest hole of most sets; then the

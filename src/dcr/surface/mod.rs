@@ -187,9 +187,6 @@ fn begin<'a>(
     SurfaceRelaxation::new(job, connected, spacing, floor, placed.as_deref().unwrap_or(places), options.seed)
 }
 
-/// The amount by which rounding may have moved barycentrics out of their triangle.
-const ROUNDING: f64 = 1e-6;
-
 /// The distance of neighbours in the hexagonal arrangement of as many samples on the area of the mesh.
 pub fn hexagonal_distance(mesh: &Mesh, count: usize) -> f64 {
     (2.0 * mesh.area() / (3f64.sqrt() * count.max(1) as f64)).sqrt()
@@ -205,7 +202,7 @@ pub fn check(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Resul
         let reason = format!("there are {}, and {} triangles", barycentrics.len(), triangles.len());
         return Err(Error::invalid("barycentrics", reason));
     }
-    for (i, (&triangle, &[u, v])) in triangles.iter().zip(barycentrics).enumerate() {
+    for (i, &triangle) in triangles.iter().enumerate() {
         if triangle as usize >= count {
             return Err(Error::invalid("triangles", format!("[{i}] is {triangle}, and the mesh has {count}")));
         }
@@ -213,13 +210,8 @@ pub fn check(mesh: &Mesh, triangles: &[u32], barycentrics: &[[f32; 2]]) -> Resul
             let reason = if mesh.is_sampled(triangle) { "has no area" } else { "is left out by the mesh's mask" };
             return Err(Error::invalid("triangles", format!("[{i}] is {triangle}, which {reason}")));
         }
-        let weights = [u.into(), v.into(), 1.0 - f64::from(u) - f64::from(v)];
-        // The comparison fails for NaN too.
-        if !weights.iter().all(|&weight| weight >= -ROUNDING) {
-            return Err(Error::invalid("barycentrics", format!("[{i}] is ({u}, {v}), outside the triangle")));
-        }
     }
-    Ok(())
+    crate::check::barycentrics(barycentrics)
 }
 
 /// The points of samples.

@@ -71,7 +71,7 @@ pub fn remesh(
     }
     taken.sort_unstable();
     let count = taken.len();
-    let made = Mesh::new(positions, taken)?;
+    let made = Mesh::new(positions, taken)?.with_origin(mesh.origin());
     let quality = made.quality();
     let report =
         RemeshReport { triangles: count as u64, disputed: disputed as u64, left_out: (all - count) as u64, quality };

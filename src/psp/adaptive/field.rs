@@ -20,7 +20,7 @@ use crate::memory;
 use crate::mesh::{Mesh, exact};
 use crate::points::check_resolution;
 use crate::psp::adaptive::density::DensityField;
-use crate::psp::adaptive::options::{Radius, RadiusFunction};
+use crate::psp::adaptive::options::{Radius, RadiusFunction, Scale};
 use crate::psp::fill::TOLERANCE;
 use crate::psp::fragment::{Fragment, Shape};
 use crate::psp::set::Sample;
@@ -102,7 +102,13 @@ impl<'a> RadiusField<'a> {
             Source::Density { .. } => "density",
         };
         let spacing = mesh.float_spacing();
-        check_resolution(argument, scale * all.least, spacing, "the largest coordinate of the mesh")?;
+        let place = "the largest coordinate of the mesh";
+        check_resolution(argument, scale * all.least, spacing, place).map_err(|error| match (radius, error) {
+            (Radius::Density { scale: Scale::Count(count), .. }, Error::InvalidArgument { reason, .. }) => {
+                Error::invalid("count", format!("for {count} samples the smallest radius, {reason}"))
+            }
+            (_, error) => error,
+        })?;
         let rounding = TOLERANCE * spacing;
         if let Source::Function { smallest, slope, .. } = source
             && 4.0 * slope * rounding > smallest

@@ -59,11 +59,11 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         radii: Vec::new(),
         ids: Vec::new(),
     };
-    let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii };
+    let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii, origin: [0.0; 3] };
     for radii in [None, Some(&[0.5, 2.0][..])] {
         let mut written = Vec::new();
         write_surface(&mut written, &table(radii)).unwrap();
-        let read = parse(&written).unwrap().into_samples().unwrap();
+        let read = parse(&written).unwrap().into_samples([0.0; 3]).unwrap();
         assert_eq!((&read.positions, &read.normals), (&samples.positions, &samples.normals));
         assert_eq!(read.on_mesh, Some((samples.triangles.clone(), samples.barycentrics.clone())));
     }
