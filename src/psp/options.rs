@@ -20,6 +20,17 @@ pub enum Priority {
     Projector,
 }
 
+/// The projectors of an iteration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projectors {
+    /// A projector for each chart: a part of the surface that lies in one cube, 48 radii wide, and faces about one
+    /// direction. An iteration takes a fraction of the time of a maximal set and finds most of its samples.
+    #[default]
+    Local,
+    /// Three orthogonal projectors for the whole mesh (thesis §3.3.1).
+    Global,
+}
+
 /// The engine that finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move
 /// against each other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge
 /// may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
@@ -109,6 +120,8 @@ pub struct ProjectionOptions<'a> {
     pub radius: f64,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// The projectors of each iteration.
+    pub projectors: Projectors,
     /// The candidates that come first.
     pub priority: Priority,
     /// The engine that finds the hits.
@@ -124,17 +137,24 @@ impl ProjectionOptions<'_> {
     /// Sets of this radius.
     pub fn new(radius: f64) -> Self {
         let (priority, engine, given) = (Priority::default(), Engine::default(), Given::default());
-        Self { radius, seed: 0, priority, engine, given, cosine: -1.0 }
+        Self { radius, seed: 0, projectors: Projectors::default(), priority, engine, given, cosine: -1.0 }
     }
 
     /// These options without the given samples.
     pub(crate) fn without_given(&self) -> ProjectionOptions<'static> {
-        let &Self { radius, seed, priority, engine, given: _, cosine } = self;
-        ProjectionOptions { radius, seed, priority, engine, given: Given::default(), cosine }
+        let &Self { radius, seed, projectors, priority, engine, given: _, cosine } = self;
+        ProjectionOptions { radius, seed, projectors, priority, engine, given: Given::default(), cosine }
     }
 }
 
-setters!(ProjectionOptions<'a> { seed: u64, priority: Priority, engine: Engine, given: Given<'a, 3>, cosine: f64 });
+setters!(ProjectionOptions<'a> {
+    seed: u64,
+    projectors: Projectors,
+    priority: Priority,
+    engine: Engine,
+    given: Given<'a, 3>,
+    cosine: f64,
+});
 
 /// The options of [`sample_region`](super::sample_region).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,6 +200,8 @@ pub struct FlatOptions<'a> {
     pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// As [`ProjectionOptions::projectors`].
+    pub projectors: Projectors,
     /// As [`ProjectionOptions::priority`].
     pub priority: Priority,
     /// As [`ProjectionOptions::engine`].
@@ -201,6 +223,7 @@ impl<'a> FlatOptions<'a> {
             iterations: None,
             maximal: true,
             seed: 0,
+            projectors: Projectors::default(),
             priority: Priority::default(),
             engine: Engine::default(),
             given: Given::default(),
@@ -225,8 +248,8 @@ impl<'a> FlatOptions<'a> {
     }
 
     fn projection(&self) -> ProjectionOptions<'a> {
-        let &Self { radius, seed, priority, engine, given, cosine, .. } = self;
-        ProjectionOptions { radius, seed, priority, engine, given, cosine }
+        let &Self { radius, seed, projectors, priority, engine, given, cosine, .. } = self;
+        ProjectionOptions { radius, seed, projectors, priority, engine, given, cosine }
     }
 
     /// Refuses options that cannot be combined with a count or progressive order.
@@ -253,6 +276,7 @@ setters!(FlatOptions<'a> {
     iterations: Option<u32>,
     maximal: bool,
     seed: u64,
+    projectors: Projectors,
     priority: Priority,
     engine: Engine,
     given: Given<'a, 3>,

@@ -3,8 +3,6 @@
 
 use std::sync::Arc;
 
-use glam::DMat3;
-
 use crate::error::{Error, Result};
 use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
@@ -17,10 +15,8 @@ use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, Surface, require
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::levels::{self, Levels};
-use crate::psp::options::{Amount, FlatOptions, Options, ProjectionOptions, Request, check_quotient};
-use crate::psp::project::candidates::{Collector, merge};
-use crate::psp::project::projector::{self, Projector};
-use crate::psp::project::{Projection, is_worth_projecting};
+use crate::psp::options::{Amount, FlatOptions, Options, ProjectionOptions, Projectors, Request, check_quotient};
+use crate::psp::project::{Pass, Projection, is_worth_projecting};
 use crate::psp::report::{Report, rho};
 use crate::psp::set::SampleSet;
 
@@ -44,8 +40,6 @@ pub struct Psp {
     /// Made by the first iteration.
     projection: Option<Projection>,
     iterations: u32,
-    /// The frame of the last iteration.
-    frame: Option<DMat3>,
 }
 
 impl Psp {
@@ -70,10 +64,9 @@ impl Psp {
             samples,
             is_maximal: false,
             measures,
-            projects: is_worth_projecting(mesh, radius, estimate),
+            projects: options.projectors == Projectors::Local || is_worth_projecting(mesh, radius, estimate),
             projection: None,
             iterations: 0,
-            frame: None,
         })
     }
 
@@ -131,11 +124,14 @@ impl Psp {
         self.len() == 0
     }
 
-    /// The viewing directions of the projectors in the last iteration: orthogonal unit vectors, by the number of the
-    /// projector. They depend on the seed and the iterations, not on the mesh. For measurements.
+    /// The viewing directions of the global projectors in the last iteration: orthogonal unit vectors, by the number of
+    /// the projector. They depend on the seed and the iterations, not on the mesh. For measurements.
     #[doc(hidden)]
     pub fn directions(&self) -> Option<[[f64; 3]; 3]> {
-        self.frame.map(|frame| frame.to_cols_array_2d())
+        match &self.projection {
+            Some(Projection::Global(global)) => global.frame.map(|frame| frame.to_cols_array_2d()),
+            _ => None,
+        }
     }
 
     /// Refuses iterations of a set whose samples ignore others by their normals.
@@ -159,28 +155,15 @@ impl Psp {
             let job = job.part(share(step), share(step + 1));
             let mut stage = Stopwatch::start();
             let prepared = if self.projection.is_some() { 0.0 } else { 0.3 };
+            let Self { mesh, measures, given, options, iterations, .. } = self;
             let projection = match &mut self.projection {
                 Some(projection) => projection,
-                none => none.insert(Projection::new(&job.part(0.0, prepared), &self.mesh, &self.options)?),
+                none => none.insert(Projection::new(&job.part(0.0, prepared), mesh, options)?),
             };
             report.prepare_seconds += stage.lap();
-            let ProjectionOptions { seed, priority, .. } = self.options;
-            let frame = projector::frame(seed, self.iterations, self.frame);
-            let projectors = &Projector::all(frame, seed, self.iterations);
-            let collector = Collector { mesh: &self.mesh, samples: &self.samples, priority, projectors };
-            let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;
-            report.project_seconds += stage.lap();
-            let accepted = merge(&job.part(0.7, 1.0), &self.given, &mut self.samples, &candidates)?;
-            report.merge_seconds += stage.lap();
+            let pass = Pass { mesh, measures, given, options, iteration: *iterations };
+            projection.advance(&job.part(prepared, 1.0), &pass, &mut self.samples, report)?;
             self.iterations += 1;
-            self.frame = Some(frame);
-
-            report.iterations += 1;
-            report.accepted += accepted;
-            report.rays += projected.rays;
-            report.hits += projected.hits;
-            report.restart_conflicts += projected.restart_conflicts;
-            report.conflicts += projected.hits - projected.restart_conflicts - accepted;
         }
         Ok(())
     }

@@ -8,6 +8,8 @@
 //! eliminate others. Among the candidates those come first that their projector faces most squarely: there its pattern,
 //! which is maximal in the plane, is stretched least. (Or, by option, those of the lower projector, as in the thesis.)
 
+use std::ops::AddAssign;
+
 use crate::error::Result;
 use crate::index::Buckets;
 use crate::job::Job;
@@ -40,6 +42,14 @@ pub struct Collector<'a> {
     pub projectors: &'a [Projector; 3],
 }
 
+impl AddAssign for Projected {
+    fn add_assign(&mut self, part: Self) {
+        self.rays += part.rays;
+        self.hits += part.hits;
+        self.restart_conflicts += part.restart_conflicts;
+    }
+}
+
 impl Collector<'_> {
     /// Runs tasks that pass on their results: the number of a projector, the number of its rays, and their hits in the
     /// order of [`Scene::all_hits`](crate::trace::Scene::all_hits), all those of a ray at once.
@@ -58,11 +68,8 @@ impl Collector<'_> {
             });
             projected
         })?;
-        let all = parts.iter().fold(Projected::default(), |all, part| Projected {
-            rays: all.rays + part.rays,
-            hits: all.hits + part.hits,
-            restart_conflicts: all.restart_conflicts + part.restart_conflicts,
-        });
+        let mut all = Projected::default();
+        parts.into_iter().for_each(|part| all += part);
         Ok((candidates, all))
     }
 

@@ -4,6 +4,7 @@
 //! The engines are Embree's ray packets (`rays.rs`) and a rasteriser (`raster.rs`).
 
 pub mod candidates;
+pub mod local;
 mod pattern;
 pub mod projector;
 mod raster;
@@ -11,38 +12,116 @@ mod rays;
 #[cfg(test)]
 mod tests;
 
+use glam::DMat3;
+
 use crate::error::Result;
+use crate::host::Stopwatch;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
-use crate::psp::fill::DENSITY;
-use crate::psp::options::{Engine, ProjectionOptions};
-use crate::psp::project::candidates::{Candidates, Collector};
+use crate::psp::fill::{DENSITY, Measures};
+use crate::psp::given::GivenSamples;
+use crate::psp::options::{Engine, ProjectionOptions, Projectors};
+use crate::psp::project::candidates::{Candidates, Collector, Projected, merge};
+use crate::psp::project::local::LocalProjection;
 use crate::psp::project::projector::Projector;
 use crate::psp::project::raster::Rasteriser;
 use crate::psp::project::rays::Rays;
+use crate::psp::report::Report;
+use crate::psp::set::SampleSet;
 
-/// A pattern, and the engine that finds its hits on a mesh.
+/// An iteration over a surface.
+pub struct Pass<'a> {
+    pub mesh: &'a Mesh,
+    pub measures: &'a Measures,
+    pub given: &'a GivenSamples,
+    pub options: &'a ProjectionOptions<'static>,
+    /// The number of iterations before.
+    pub iteration: u32,
+}
+
+/// A pattern, ready to be projected onto a mesh.
 pub enum Projection {
-    Embree(Rays),
-    Rasteriser(Rasteriser),
+    Local(LocalProjection),
+    Global(GlobalProjection),
 }
 
 impl Projection {
     /// Makes the pattern, and prepares the mesh for the engine.
     pub fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
-        let ProjectionOptions { radius, seed, .. } = *options;
-        Ok(match options.engine {
-            Engine::Embree => Self::Embree(Rays::new(job, mesh, radius, seed)?),
-            Engine::Rasteriser => Self::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),
+        Ok(match options.projectors {
+            Projectors::Local => Self::Local(LocalProjection::new(job, options.seed)?),
+            Projectors::Global => Self::Global(GlobalProjection::new(job, mesh, options)?),
         })
+    }
+
+    /// Makes an iteration: adds those of its hits that conflict with nothing that was there or comes first.
+    ///
+    /// A failed or cancelled job adds nothing.
+    pub fn advance(&mut self, job: &Job, pass: &Pass, samples: &mut SampleSet, report: &mut Report) -> Result<()> {
+        let before = samples.len();
+        let Projected { rays, hits, restart_conflicts } = match self {
+            Self::Local(local) => {
+                let stage = Stopwatch::start();
+                let projected = local.advance(job, pass, samples)?;
+                report.project_seconds += stage.seconds();
+                projected
+            }
+            Self::Global(global) => global.advance(job, pass, samples, report)?,
+        };
+        let accepted = (samples.len() - before) as u64;
+        report.iterations += 1;
+        report.accepted += accepted;
+        report.rays += rays;
+        report.hits += hits;
+        report.restart_conflicts += restart_conflicts;
+        report.conflicts += hits - restart_conflicts - accepted;
+        Ok(())
+    }
+}
+
+/// A pattern for three orthogonal projectors through the whole mesh.
+pub struct GlobalProjection {
+    hits: Hits,
+    /// The frame of the last iteration.
+    pub frame: Option<DMat3>,
+}
+
+/// The engine that finds the hits.
+enum Hits {
+    Embree(Rays),
+    Rasteriser(Rasteriser),
+}
+
+impl GlobalProjection {
+    fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
+        let ProjectionOptions { radius, seed, .. } = *options;
+        let hits = match options.engine {
+            Engine::Embree => Hits::Embree(Rays::new(job, mesh, radius, seed)?),
+            Engine::Rasteriser => Hits::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),
+        };
+        Ok(Self { hits, frame: None })
     }
 
     /// Collects all hits of three projectors, by cubes.
     pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Candidates> {
-        match self {
-            Self::Embree(rays) => rays.project(job, projectors, collector),
-            Self::Rasteriser(rasteriser) => rasteriser.project(job, projectors, collector),
+        match &self.hits {
+            Hits::Embree(rays) => rays.project(job, projectors, collector),
+            Hits::Rasteriser(rasteriser) => rasteriser.project(job, projectors, collector),
         }
+    }
+
+    fn advance(&mut self, job: &Job, pass: &Pass, samples: &mut SampleSet, report: &mut Report) -> Result<Projected> {
+        let mut stage = Stopwatch::start();
+        let &ProjectionOptions { seed, priority, .. } = pass.options;
+        let frame = projector::frame(seed, pass.iteration, self.frame);
+        let projectors = &Projector::all(frame, seed, pass.iteration);
+        let collector = Collector { mesh: pass.mesh, samples, priority, projectors };
+        let (candidates, projected) = self.project(&job.part(0.0, 0.6), projectors, &collector)?;
+        report.project_seconds += stage.lap();
+        merge(&job.part(0.6, 1.0), pass.given, samples, &candidates)?;
+        report.merge_seconds += stage.lap();
+        self.frame = Some(frame);
+        Ok(projected)
     }
 }
 
