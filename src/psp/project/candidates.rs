@@ -23,6 +23,11 @@ use crate::trace::Hit;
 /// The resolution of the squareness of a hit.
 const RANKS: f64 = 1e6;
 
+/// The rank of a hit by the cosine between the normal and the direction that it is projected along.
+pub fn rank(cosine: f64) -> u32 {
+    ((1.0 - cosine.abs()) * RANKS) as u32
+}
+
 /// The counts of rays and hits of some projectors.
 #[derive(Clone, Copy, Default)]
 pub struct Projected {
@@ -86,9 +91,9 @@ impl Collector<'_> {
                 } else {
                     kept.push(sample.position);
                 }
-                let squareness = || exact(self.mesh.normal(hit.triangle)).dot(direction).abs();
+                let cosine = || exact(self.mesh.normal(hit.triangle)).dot(direction);
                 let rank = match self.priority {
-                    Priority::Squareness => ((1.0 - squareness()) * RANKS) as u32,
+                    Priority::Squareness => rank(cosine()),
                     Priority::Projector => projector as u32,
                 };
                 add(self.samples.cube(sample.position.map(f64::from)), Candidate { sample, rank });

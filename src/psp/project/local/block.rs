@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::fragment::Fragment;
+use crate::psp::project::candidates::rank;
 use crate::psp::project::local::charts::Charts;
 use crate::psp::project::local::projector::{LocalProjector, SeenTriangle};
 use crate::psp::project::local::torus::Torus;
@@ -19,8 +20,9 @@ pub const NONE: u32 = u32::MAX;
 #[derive(Clone, Copy)]
 pub struct Candidate {
     pub sample: Sample,
-    /// The cosine between the axis of its chart and the normal, for its rank.
     pub chart: u16,
+    /// The lowest comes first: how far its facet is from being faced squarely.
+    pub rank: u32,
     /// The candidate before it on the same ray.
     pub before: u32,
 }
@@ -49,11 +51,13 @@ impl Candidates {
     pub fn draw(&mut self, plane: &Plane, charts: &Charts, chart: usize, last: &mut [u32]) {
         let start = self.all.len() as u32;
         for facet in charts.facets(chart) {
-            let Some(seen) = SeenTriangle::new(facet.corners.map(|corner| plane.projector.see(corner)), plane.tolerance)
+            let Some(seen) =
+                SeenTriangle::new(facet.corners.map(|corner| plane.projector.see(corner)), plane.tolerance)
             else {
                 continue;
             };
             let corners = plane.mesh.corners(facet.triangle);
+            let rank = rank(facet.normal.dot(charts.axes[chart]));
             let piece = facet.piece.map(|piece| &plane.pieces[piece as usize]);
             let outline = piece.map_or(seen.corners, |piece| piece.corners.map(|corner| seen.at(corner)));
             let rays = each_point(plane.torus, outline, |number, point| {
@@ -65,7 +69,7 @@ impl Candidates {
                 let before = std::mem::replace(&mut last[number], self.all.len() as u32);
                 let is_before = before != NONE && before >= start;
                 let before = if is_before { before } else { NONE };
-                self.all.push(Candidate { sample, chart: chart as u16, before });
+                self.all.push(Candidate { sample, chart: chart as u16, rank, before });
             });
             self.rays += rays;
         }
@@ -127,4 +131,64 @@ fn between(corners: &[DVec2; 3], row: f64) -> [f64; 2] {
         }
     }
     extent
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn all_points_in_a_triangle_are_visited_once() {
+        let torus = Context::new(1).unwrap().run(None, |job| Torus::new(job, 1)).unwrap();
+        let all = || (-300..300).flat_map(|row| torus.runs(row, [-300, 299]).collect::<Vec<_>>());
+        let points = all().flat_map(|run| {
+            let corner = DVec2::from_array(run.corner);
+            (run.first..)
+                .zip(run.points)
+                .map(move |(number, &[x, y])| (number, corner + DVec2::new(x.into(), y.into())))
+        });
+        let points: Vec<_> = points.collect();
+        let (mut rng, mut count) = (Rng::at(1, Draw::Probe, &[]), 0);
+        for round in 0..300 {
+            let size = [0.7, 4.0, 60.0][round % 3];
+            let mut place = |size: f64| size * DVec2::new(rng.unit() - 0.5, rng.unit() - 0.5);
+            let around = place(400.0);
+            let mut corners = [(); 3].map(|()| around + place(size));
+            if round % 5 == 0 {
+                // Edges along the rows and columns of cells.
+                corners = corners.map(DVec2::round);
+            }
+            let Some(seen) = SeenTriangle::new(corners, 0.0) else { continue };
+            let is_hit = |&(_, point): &(usize, DVec2)| seen.barycentrics(point).is_some();
+            let (mut found, mut rays) = (Vec::new(), 0);
+            let counted = each_point(&torus, corners, |number, point| {
+                rays += 1;
+                found.push((number, point));
+            });
+            assert_eq!(counted, rays);
+            found.retain(is_hit);
+            let mut expected: Vec<_> = points.iter().copied().filter(is_hit).collect();
+            let key = |a: &(usize, DVec2), b: &(usize, DVec2)| {
+                a.0.cmp(&b.0).then(a.1.x.total_cmp(&b.1.x)).then(a.1.y.total_cmp(&b.1.y))
+            };
+            found.sort_by(key);
+            expected.sort_by(key);
+            assert_eq!(found, expected);
+            count += found.len();
+        }
+        assert!(count > 10_000, "{count}");
+    }
+
+    #[test]
+    fn pieces_share_the_points_of_their_triangle() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        let whole = Fragment::whole(0);
+        let pieces: Vec<_> = whole.parts(5).collect();
+        for _ in 0..10_000 {
+            let point = rng.in_triangle();
+            assert_eq!(pieces.iter().filter(|piece| holds(piece, point)).count(), 1);
+        }
+    }
 }

@@ -36,7 +36,7 @@ pub struct Facet {
     pub piece: Option<u32>,
     /// The corners of the whole triangle.
     pub corners: [DVec3; 3],
-    normal: DVec3,
+    pub normal: DVec3,
 }
 
 /// The facets of a block, by chart.
@@ -85,8 +85,7 @@ impl Charts {
         order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(place, &number)| places[number] = place);
-        let by_chart =
-            Binned::new(order.len(), assigned.iter().zip(0..).map(|(&chart, facet)| (places[chart], facet)));
+        let by_chart = Binned::new(order.len(), assigned.iter().zip(0..).map(|(&chart, facet)| (places[chart], facet)));
         let axes = order.iter().map(|&number| axes[number]).collect();
         Self { axes, facets, by_chart, longest: longest.sqrt() }
     }
@@ -186,5 +185,70 @@ impl Clusters {
         let chart = of_bin.or_else(|| self.facing(normal)).unwrap_or_else(|| self.add(normal));
         self.areas[chart] += area;
         chart
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::psp::fill::Extent;
+    use crate::psp::fill::blocks::Items;
+    use crate::psp::set::Cube;
+    use crate::rng::{Draw, Rng};
+
+    /// A block of random triangles, with pieces and triangles without area.
+    fn block(rng: &mut Rng, triangles: u32) -> (Mesh, Block) {
+        let mut place = || [(); 3].map(|()| (10.0 * rng.unit()) as f32);
+        let mut positions: Vec<[f32; 3]> = (0..3 * triangles).map(|_| place()).collect();
+        positions[1] = positions[0];
+        let corners = (0..triangles).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let mesh = Mesh::new(positions, corners).unwrap();
+        let whole: Vec<_> = (triangles / 2..triangles).map(Fragment::whole).collect();
+        let pieces = whole.iter().flat_map(|whole| whole.parts(2)).collect();
+        let items = Items { triangles: (0..triangles / 2).collect(), clusters: Vec::new(), pieces };
+        (mesh, Block { cube: Cube([0; 3]), extent: Extent::EMPTY, items })
+    }
+
+    #[test]
+    fn every_facet_is_on_one_chart_that_it_faces() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for round in 0..200 {
+            let (mesh, block) = block(&mut rng, 2 + 5 * round % 60);
+            let charts = Charts::new(&mesh, &block, DVec3::splat(5.0), 3.0);
+            let mut seen: Vec<_> = Vec::new();
+            let mut areas = Vec::new();
+            for (chart, axis) in charts.axes.iter().enumerate() {
+                assert!((axis.length() - 1.0).abs() < 1e-12);
+                let mut area = 0.0;
+                for facet in charts.facets(chart) {
+                    let [a, b, c] = facet.corners;
+                    let cross = (b - a).cross(c - a);
+                    assert!(cross.normalize().dot(*axis).abs() >= LEAST_COSINE - 1e-12);
+                    let whole = mesh.triangle_area(facet.triangle) * 9.0;
+                    assert!((cross.length() / 2.0 - whole).abs() < 1e-4 * whole + 1e-6);
+                    area += whole * if facet.piece.is_some() { 0.25 } else { 1.0 };
+                    seen.push((facet.triangle, facet.piece));
+                }
+                areas.push(area);
+            }
+            assert!(areas.is_sorted_by(|a, b| *a >= b * (1.0 - 1e-6)), "{areas:?}");
+            seen.sort_unstable();
+            let whole = block.items.triangles.iter().map(|&triangle| (triangle, None));
+            let pieces = (0..).zip(&block.items.pieces).map(|(number, piece)| (piece.triangle, Some(number)));
+            let mut expected: Vec<_> = whole.chain(pieces).filter(|&(t, _)| mesh.triangle_area(t) > 0.0).collect();
+            expected.sort_unstable();
+            assert_eq!(seen, expected);
+        }
+    }
+
+    #[test]
+    fn a_plane_has_one_chart_however_its_triangles_are_wound() {
+        let positions = vec![[0.0, 0.0, 1.0], [9.0, 0.0, 1.0], [9.0, 9.0, 2.0], [0.0, 9.0, 2.0]];
+        let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 3, 2]]).unwrap();
+        let items = Items { triangles: vec![0, 1], ..Items::default() };
+        let block = Block { cube: Cube([0; 3]), extent: Extent::EMPTY, items };
+        let charts = Charts::new(&mesh, &block, DVec3::ZERO, 1.0);
+        assert_eq!(charts.axes.len(), 1);
+        assert!((charts.longest - 163f64.sqrt()).abs() < 1e-9);
     }
 }

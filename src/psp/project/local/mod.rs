@@ -13,15 +13,18 @@ mod block;
 mod charts;
 mod near;
 mod projector;
+#[cfg(test)]
+mod tests;
 mod torus;
 
 use crate::error::Result;
 use crate::job::Job;
 use crate::mesh::exact;
 use crate::psp::fill::{Block, Blocks};
+use crate::psp::options::Priority;
 use crate::psp::project::Pass;
 use crate::psp::project::candidates::Projected;
-use crate::psp::project::local::block::{Candidates, NONE, Plane};
+use crate::psp::project::local::block::{Candidate, Candidates, NONE, Plane};
 use crate::psp::project::local::charts::Charts;
 use crate::psp::project::local::near::Marks;
 use crate::psp::project::local::projector::LocalProjector;
@@ -106,22 +109,32 @@ fn choose(pass: &Pass, block: &Block, set: &SampleSet, candidates: &Candidates) 
         is_repeated[candidate.before as usize] = true;
     }
     let mut accepted = Vec::with_capacity(candidates.all.len());
-    let mut restart_conflicts = 0;
-    for (candidate, is_repeated) in candidates.all.iter().zip(is_repeated) {
+    let mut contested = Vec::new();
+    for ((number, candidate), is_repeated) in (0..).zip(&candidates.all).zip(is_repeated) {
         let position = candidate.sample.position;
         if pass.given.obstacles.reject(position) {
             continue;
         }
         if is_repeated || marks.is_near_another(position, candidate.chart) {
-            if surroundings.rejects(position) {
-                let before = candidates.all.get(candidate.before as usize);
-                let on_ray = before.is_some_and(|before| set.conflict(before.sample.position, position));
-                restart_conflicts += u64::from(on_ray);
-                continue;
-            }
-            surroundings.add(position);
+            contested.push(u64::from(candidate.rank) << 32 | number);
+        } else {
+            accepted.push(candidate.sample);
         }
-        accepted.push(candidate.sample);
+    }
+    if pass.options.priority == Priority::Squareness {
+        contested.sort_unstable();
+    }
+    let mut restart_conflicts = 0;
+    for number in contested {
+        let Candidate { sample, before, .. } = candidates.all[number as u32 as usize];
+        if surroundings.rejects(sample.position) {
+            let before = candidates.all.get(before as usize);
+            let on_ray = before.is_some_and(|before| set.conflict(before.sample.position, sample.position));
+            restart_conflicts += u64::from(on_ray);
+        } else {
+            surroundings.add(sample.position);
+            accepted.push(sample);
+        }
     }
     let hits = candidates.all.len() as u64;
     (accepted, Projected { rays: candidates.rays, hits, restart_conflicts })

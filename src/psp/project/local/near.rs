@@ -73,3 +73,36 @@ impl Marks {
         false
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::distance_squared;
+    use crate::rng::{Draw, Rng};
+
+    #[test]
+    fn no_candidate_with_another_one_within_a_radius_is_missed() {
+        let (mut rng, mut alone, mut close) = (Rng::at(1, Draw::Probe, &[]), 0, 0);
+        for round in 0..60 {
+            let (size, radius, offset) =
+                ([3.0, 30.0, 60.0][round % 3], [0.1, 2.0][round % 2], [0.0, -500.0][round / 2 % 2]);
+            let mut place = |size: f64| [(); 3].map(|()| (offset + radius * size * rng.unit()) as f32);
+            let extent = Extent::of([0.0, size].map(|share| [(offset + radius * share) as f32; 3]));
+            let candidates: Vec<_> = (0..40).map(|i| (place(size), i % 3)).collect();
+            let samples: Vec<_> = (0..2).map(|_| place(size + 1.0)).collect();
+            let mut marks = Marks::new(&extent, radius);
+            candidates.iter().for_each(|&(position, chart)| marks.add(position, chart));
+            samples.iter().for_each(|&sample| marks.add_sample(sample));
+            let is_near = |a: [f32; 3], b: [f32; 3]| distance_squared(a, b) < radius * radius;
+            for &(position, chart) in &candidates {
+                let others = candidates.iter().any(|&(other, of)| of != chart && is_near(position, other));
+                let is_close = others || samples.iter().any(|&sample| is_near(position, sample));
+                let found = marks.is_near_another(position, chart);
+                assert!(found || !is_close);
+                close += usize::from(is_close);
+                alone += usize::from(!found);
+            }
+        }
+        assert!(close > 100 && alone > 100, "{close} {alone}");
+    }
+}

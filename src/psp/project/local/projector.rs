@@ -70,3 +70,53 @@ impl SeenTriangle {
         a + u * (b - a) + v * (c - a)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Draw;
+
+    #[test]
+    fn hits_are_the_points_that_keep_the_tolerance_from_all_edges() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        let (mut hits, mut nothing) = (0, 0);
+        for round in 0..20_000 {
+            let tolerance = [0.0, 1e-6, 0.1, 1.0][round % 4];
+            let mut place = || 10.0 * DVec2::new(rng.unit(), rng.unit());
+            let (corners, point) = ([place(), place(), place()], place());
+            let distance = |from: DVec2, to: DVec2| (to - from).perp_dot(point - from) / (to - from).length();
+            let [a, b, c] = corners;
+            let turn = (b - a).perp_dot(c - a).signum();
+            let depth = [(a, b), (b, c), (c, a)].map(|(from, to)| turn * distance(from, to));
+            let depth = depth.into_iter().fold(f64::INFINITY, f64::min);
+            let Some(seen) = SeenTriangle::new(corners, tolerance) else {
+                assert!(depth < tolerance + 1e-9);
+                nothing += 1;
+                continue;
+            };
+            match seen.barycentrics(point) {
+                Some(barycentrics) => {
+                    assert!(depth > tolerance - 1e-9);
+                    assert!(seen.at(barycentrics).distance(point) < 1e-9);
+                    hits += 1;
+                }
+                None => assert!(depth < tolerance + 1e-9, "{depth} {tolerance}"),
+            }
+        }
+        assert!(hits > 500 && nothing > 100, "{hits} {nothing}");
+        assert!(SeenTriangle::new([DVec2::ZERO, DVec2::ONE, 2.0 * DVec2::ONE], 0.0).is_none());
+    }
+
+    #[test]
+    fn a_projector_never_makes_distances_longer() {
+        let mut rng = Rng::at(2, Draw::Probe, &[]);
+        for _ in 0..2000 {
+            let mut place = |size: f64| size * (DVec3::new(rng.unit(), rng.unit(), rng.unit()) - 0.5);
+            let (axis, a, b) = (place(1.0).normalize(), place(50.0), place(50.0));
+            let projector = LocalProjector::new(axis, 0.75, &mut rng);
+            let (seen, true_distance) = (projector.see(a).distance(projector.see(b)), a.distance(b));
+            let across = (b - a).reject_from(axis).length();
+            assert!((seen - 0.75 * across).abs() < 1e-9 && seen <= 0.75 * true_distance + 1e-9);
+        }
+    }
+}

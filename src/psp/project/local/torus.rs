@@ -48,3 +48,66 @@ impl Torus {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::rng::{Draw, Rng};
+
+    /// The numbers and places of the points in a rectangle of cells, by the definition.
+    fn expected(torus: &Torus, [left, right]: [i32; 2], [bottom, top]: [i32; 2]) -> Vec<(usize, [i64; 2])> {
+        let mut found = Vec::new();
+        for (number, point) in torus.cells.items().iter().enumerate() {
+            for x in left.div_euclid(SIDE)..=right.div_euclid(SIDE) {
+                for y in bottom.div_euclid(SIDE)..=top.div_euclid(SIDE) {
+                    let place = [(point[0], x), (point[1], y)].map(|(at, tile)| f64::from(at) + f64::from(tile * SIDE));
+                    let cell = place.map(|x| x.floor() as i32);
+                    if (left..=right).contains(&cell[0]) && (bottom..=top).contains(&cell[1]) {
+                        found.push((number, place.map(|x| (x * 1e6) as i64)));
+                    }
+                }
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    #[test]
+    fn runs_have_the_points_of_their_cells_anywhere_on_the_plane() {
+        let torus = Context::new(1).unwrap().run(None, |job| Torus::new(job, 3)).unwrap();
+        assert!(torus.len() > 11_000);
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for _ in 0..100 {
+            let mut range = |most: u64| {
+                let first = rng.below(600) as i32 - 300;
+                [first, first + rng.below(most) as i32]
+            };
+            let (columns, rows) = (range(127), range(4));
+            let mut found = Vec::new();
+            for run in (rows[0]..=rows[1]).flat_map(|row| torus.runs(row, columns).collect::<Vec<_>>()) {
+                for (number, point) in (run.first..).zip(run.points) {
+                    let place = [0, 1].map(|axis| f64::from(point[axis]) + run.corner[axis]);
+                    found.push((number, place.map(|x| (x * 1e6) as i64)));
+                }
+            }
+            found.sort_unstable();
+            assert_eq!(found, expected(&torus, columns, rows));
+        }
+    }
+
+    #[test]
+    fn no_two_points_of_the_repeated_pattern_are_nearer_than_one() {
+        let torus = Context::new(1).unwrap().run(None, |job| Torus::new(job, 4)).unwrap();
+        let points = torus.cells.items();
+        for (i, a) in points.iter().enumerate() {
+            for b in &points[..i] {
+                let apart = [0, 1].map(|axis| {
+                    let apart = (f64::from(a[axis]) - f64::from(b[axis])).abs();
+                    apart.min(f64::from(SIDE) - apart)
+                });
+                assert!(apart[0] * apart[0] + apart[1] * apart[1] >= 1.0);
+            }
+        }
+    }
+}
