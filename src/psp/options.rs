@@ -31,28 +31,36 @@ pub enum Projectors {
     Global,
 }
 
-/// The engine that finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move
-/// against each other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge
-/// may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
+/// The engine that finds the hits of the projectors.
 ///
-/// The default is Embree, where a build has it ([`HAS_EMBREE`](crate::trace::HAS_EMBREE)).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// With [local projectors](Projectors::Local) all engines give the same samples, to the bit, on every machine: Embree
+/// only says on which triangles a hit can be, and a point of the pattern that is nearer than a millionth of the mesh's
+/// diagonal to an edge of a triangle, as its projector sees them, does not hit it.
+///
+/// With [global ones](Projectors::Global) Embree and the rasteriser have the same hits up to rounding: points and edges
+/// move against each other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an
+/// edge may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Engine {
+    /// The rasteriser for local projectors; for global ones Embree, where a build has it
+    /// ([`HAS_EMBREE`](crate::trace::HAS_EMBREE)).
+    #[default]
+    Auto,
     /// Packets of rays through the hierarchy of Embree: the time grows with the number of rays.
     Embree,
-    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): the time grows with the number of
-    /// triangles. A point on an edge that triangles share hits one of them on either side, never none or both.
+    /// Triangles drawn over the pattern (thesis §3.4.3): the time grows with the number of triangles. With global
+    /// projectors in exact integer arithmetic: a point on an edge that triangles share hits one of them on either side,
+    /// never none or both.
     Rasteriser,
 }
 
 impl Engine {
-    /// The engines that this build has.
+    /// The engines that this build can be asked for by name.
     pub const AVAILABLE: &[Self] = if HAS_EMBREE { &[Self::Embree, Self::Rasteriser] } else { &[Self::Rasteriser] };
-}
 
-impl Default for Engine {
-    fn default() -> Self {
-        Self::AVAILABLE[0]
+    /// The engine of global projectors.
+    pub(super) fn of_global(self) -> Self {
+        if self == Self::Auto { Self::AVAILABLE[0] } else { self }
     }
 }
 

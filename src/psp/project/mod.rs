@@ -49,7 +49,7 @@ impl Projection {
     /// Makes the pattern, and prepares the mesh for the engine.
     pub fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
         Ok(match options.projectors {
-            Projectors::Local => Self::Local(LocalProjection::new(job, options.seed)?),
+            Projectors::Local => Self::Local(LocalProjection::new(job, mesh, options)?),
             Projectors::Global => Self::Global(GlobalProjection::new(job, mesh, options)?),
         })
     }
@@ -95,9 +95,9 @@ enum Hits {
 impl GlobalProjection {
     fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
         let ProjectionOptions { radius, seed, .. } = *options;
-        let hits = match options.engine {
+        let hits = match options.engine.of_global() {
             Engine::Embree => Hits::Embree(Rays::new(job, mesh, radius, seed)?),
-            Engine::Rasteriser => Hits::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),
+            _ => Hits::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),
         };
         Ok(Self { hits, frame: None })
     }

@@ -1,17 +1,21 @@
 //! The candidates of a block: the hits of its local projectors, chart by chart.
 //!
-//! Triangles are drawn over the plane of their chart row by row (Pineda 1988), as the rasteriser of the global projectors
-//! does over its tiles (`raster.rs`).
+//! There are two engines, with the same hits in the same order. Triangles are drawn over the plane of their chart row by row (Pineda 1988), as the rasteriser of the global projectors
+//! does over its tiles (`raster.rs`). Or rays are traced through the points of the pattern by Embree, which only says on
+//! which triangles a hit can be: whether it is one, and its barycentrics, is calculated from the point of the pattern in
+//! both cases.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::fragment::Fragment;
 use crate::psp::project::candidates::rank;
-use crate::psp::project::local::charts::Charts;
+use crate::psp::project::local::charts::Facet;
 use crate::psp::project::local::projector::{LocalProjector, SeenTriangle};
 use crate::psp::project::local::torus::Torus;
+use crate::psp::project::rays::TraceSpace;
 use crate::psp::set::Sample;
+use crate::trace::{Hit, Ray};
 
 /// No candidate.
 pub const NONE: u32 = u32::MAX;
@@ -43,37 +47,131 @@ pub struct Plane<'a> {
     /// The least distance of a hit from the edges of its triangle, in the unit of the plane.
     pub tolerance: f64,
     pub pieces: &'a [Fragment],
+    pub facets: Vec<&'a Facet>,
+}
+
+/// A facet on a plane.
+struct Seen<'a> {
+    triangle: SeenTriangle,
+    piece: Option<&'a Fragment>,
+}
+
+impl Plane<'_> {
+    /// A facet on the plane; `None` if it can have no hit there.
+    fn see(&self, facet: &Facet) -> Option<Seen<'_>> {
+        let triangle = SeenTriangle::new(facet.corners.map(|corner| self.projector.see(corner)), self.tolerance)?;
+        Some(Seen { triangle, piece: facet.piece.map(|piece| &self.pieces[piece as usize]) })
+    }
+
+    /// The hits of rays through the points of the pattern, by facet and in the order in which they are drawn, each with
+    /// the number of its point; and the number of rays.
+    fn trace(&self, space: &TraceSpace, view: &View) -> (Vec<(u32, usize, [f64; 2])>, u64) {
+        let mut cells = Vec::new();
+        let seen: Vec<_> = self.facets.iter().map(|facet| self.see(facet)).collect();
+        for seen in seen.iter().flatten() {
+            each_row(seen.outline(), |row, [first, last]| cells.extend((first..=last).map(|column| [row, column])));
+        }
+        cells.sort_unstable();
+        cells.dedup();
+        let mut points = Vec::new();
+        for [row, column] in cells {
+            each_in_row(self.torus, row, [column; 2], |number, point| points.push((number, point)));
+        }
+        let forward = self.projector.forward();
+        let ray = |&(_, point): &(usize, DVec2)| {
+            let start = self.projector.lift(point) - view.reach * forward;
+            space.ray(view.centre + view.radius * start, forward)
+        };
+        let (rays, mut hits): (Vec<Ray>, Vec<Hit>) = (points.iter().map(ray).collect(), Vec::new());
+        space.all_hits(&rays, &mut hits);
+        let mut by_triangle: Vec<_> = self.facets.iter().zip(0..).map(|(facet, n)| (facet.triangle, n)).collect();
+        by_triangle.sort_unstable();
+        let mut found: Vec<(u32, u32, [f64; 2])> = Vec::new();
+        for hit in hits {
+            let first = by_triangle.partition_point(|&(triangle, _)| triangle < hit.triangle);
+            for &(_, facet) in by_triangle[first..].iter().take_while(|&&(triangle, _)| triangle == hit.triangle) {
+                let barycentrics = seen[facet as usize].as_ref().and_then(|seen| seen.hit(points[hit.ray as usize].1));
+                found.extend(barycentrics.map(|barycentrics| (facet, hit.ray, barycentrics)));
+            }
+        }
+        found.sort_unstable_by_key(|&(facet, ray, _)| (facet, ray));
+        let found = found.into_iter().map(|(facet, ray, barycentrics)| (facet, points[ray as usize].0, barycentrics));
+        (found.collect(), rays.len() as u64)
+    }
+}
+
+impl Seen<'_> {
+    /// The corners of the triangle or its piece.
+    fn outline(&self) -> [DVec2; 3] {
+        self.piece.map_or(self.triangle.corners, |piece| piece.corners.map(|corner| self.triangle.at(corner)))
+    }
+
+    /// The barycentrics of a point that hits the triangle, in the piece if it is one.
+    #[inline]
+    fn hit(&self, point: DVec2) -> Option<[f64; 2]> {
+        self.triangle
+            .barycentrics(point)
+            .filter(|&barycentrics| self.piece.is_none_or(|piece| holds(piece, barycentrics)))
+    }
+}
+
+/// A block as rays see it.
+pub struct View {
+    pub centre: DVec3,
+    pub radius: f64,
+    /// The distance from the centre at which nothing is left of the block, in radii.
+    pub reach: f64,
 }
 
 impl Candidates {
     /// Adds the hits on the facets of a chart. `last` has the candidate that was found last on each point of the
     /// pattern, or any number.
-    pub fn draw(&mut self, plane: &Plane, charts: &Charts, chart: usize, last: &mut [u32]) {
+    pub fn add(&mut self, plane: &Plane, chart: usize, last: &mut [u32], traced: Option<(&TraceSpace, &View)>) {
         let start = self.all.len() as u32;
-        for facet in charts.facets(chart) {
-            let Some(seen) =
-                SeenTriangle::new(facet.corners.map(|corner| plane.projector.see(corner)), plane.tolerance)
-            else {
-                continue;
-            };
-            let corners = plane.mesh.corners(facet.triangle);
-            let rank = rank(facet.normal.dot(charts.axes[chart]));
-            let piece = facet.piece.map(|piece| &plane.pieces[piece as usize]);
-            let outline = piece.map_or(seen.corners, |piece| piece.corners.map(|corner| seen.at(corner)));
-            let rays = each_point(plane.torus, outline, |number, point| {
-                let Some(barycentrics) = seen.barycentrics(point) else { return };
-                if piece.is_some_and(|piece| !holds(piece, barycentrics)) {
-                    return;
+        let mut push = |on: &OnFacet, number: usize, barycentrics: [f64; 2]| {
+            let sample = Sample::on(&on.corners, on.triangle, round_barycentrics(barycentrics));
+            let before = std::mem::replace(&mut last[number], self.all.len() as u32);
+            let before = if before != NONE && before >= start { before } else { NONE };
+            self.all.push(Candidate { sample, chart: chart as u16, rank: on.rank, before });
+        };
+        let on = |facet: &Facet| OnFacet {
+            triangle: facet.triangle,
+            corners: plane.mesh.corners(facet.triangle),
+            rank: rank(facet.normal.dot(plane.projector.forward())),
+        };
+        self.rays += match traced {
+            Some((space, view)) => {
+                let (hits, rays) = plane.trace(space, view);
+                for of_facet in hits.chunk_by(|a, b| a.0 == b.0) {
+                    let on = on(plane.facets[of_facet[0].0 as usize]);
+                    of_facet.iter().for_each(|&(_, number, barycentrics)| push(&on, number, barycentrics));
                 }
-                let sample = Sample::on(&corners, facet.triangle, round_barycentrics(barycentrics));
-                let before = std::mem::replace(&mut last[number], self.all.len() as u32);
-                let is_before = before != NONE && before >= start;
-                let before = if is_before { before } else { NONE };
-                self.all.push(Candidate { sample, chart: chart as u16, rank, before });
-            });
-            self.rays += rays;
-        }
+                rays
+            }
+            None => {
+                let mut rays = 0;
+                for &facet in &plane.facets {
+                    let Some(seen) = plane.see(facet) else { continue };
+                    let on = on(facet);
+                    each_row(seen.outline(), |row, columns| {
+                        rays += each_in_row(plane.torus, row, columns, |number, point| {
+                            if let Some(barycentrics) = seen.hit(point) {
+                                push(&on, number, barycentrics);
+                            }
+                        });
+                    });
+                }
+                rays
+            }
+        };
     }
+}
+
+/// A facet on which there are hits.
+struct OnFacet {
+    triangle: u32,
+    corners: [[f32; 3]; 3],
+    rank: u32,
 }
 
 /// True if a piece holds a point of its triangle.
@@ -83,13 +181,12 @@ fn holds(piece: &Fragment, point: [f64; 2]) -> bool {
     [(a, b), (b, c), (c, a)].into_iter().all(|(from, to)| (to - from).perp_dot(point - from) * turn >= 0.0)
 }
 
-/// Visits the points of the pattern in the cells that a triangle touches, with their numbers, and counts them.
+/// Visits the rows of cells that a triangle touches, each with its first and last column.
 #[inline(always)]
-fn each_point(torus: &Torus, corners: [DVec2; 3], mut visit: impl FnMut(usize, DVec2)) -> u64 {
+fn each_row(corners: [DVec2; 3], mut visit: impl FnMut(i32, [i32; 2])) {
     let [a, b, c] = corners;
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     let width = [floor(low.x), floor(high.x)];
-    let mut count = 0;
     for row in floor(low.y)..=floor(high.y) {
         let columns = if width[1] - width[0] < 2 {
             width
@@ -97,12 +194,19 @@ fn each_point(torus: &Torus, corners: [DVec2; 3], mut visit: impl FnMut(usize, D
             let [least, most] = between(&corners, f64::from(row));
             [floor(least), floor(most)]
         };
-        for run in torus.runs(row, columns) {
-            let corner = DVec2::from_array(run.corner);
-            count += run.points.len() as u64;
-            for (number, &[x, y]) in (run.first..).zip(run.points) {
-                visit(number, corner + DVec2::new(x.into(), y.into()));
-            }
+        visit(row, columns);
+    }
+}
+
+/// Visits the points of the pattern in some cells of a row, with their numbers, and counts them.
+#[inline(always)]
+fn each_in_row(torus: &Torus, row: i32, columns: [i32; 2], mut visit: impl FnMut(usize, DVec2)) -> u64 {
+    let mut count = 0;
+    for run in torus.runs(row, columns) {
+        let corner = DVec2::from_array(run.corner);
+        count += run.points.len() as u64;
+        for (number, &[x, y]) in (run.first..).zip(run.points) {
+            visit(number, corner + DVec2::new(x.into(), y.into()));
         }
     }
     count
@@ -163,9 +267,12 @@ mod tests {
             let Some(seen) = SeenTriangle::new(corners, 0.0) else { continue };
             let is_hit = |&(_, point): &(usize, DVec2)| seen.barycentrics(point).is_some();
             let (mut found, mut rays) = (Vec::new(), 0);
-            let counted = each_point(&torus, corners, |number, point| {
-                rays += 1;
-                found.push((number, point));
+            let mut counted = 0;
+            each_row(corners, |row, columns| {
+                counted += each_in_row(&torus, row, columns, |number, point| {
+                    rays += 1;
+                    found.push((number, point));
+                });
             });
             assert_eq!(counted, rays);
             found.retain(is_hit);

@@ -17,18 +17,21 @@ mod projector;
 mod tests;
 mod torus;
 
+use std::sync::Arc;
+
 use crate::error::Result;
 use crate::job::Job;
-use crate::mesh::exact;
+use crate::mesh::{Mesh, exact};
 use crate::psp::fill::{Block, Blocks};
-use crate::psp::options::Priority;
+use crate::psp::options::{Engine, Priority, ProjectionOptions};
 use crate::psp::project::Pass;
 use crate::psp::project::candidates::Projected;
-use crate::psp::project::local::block::{Candidate, Candidates, NONE, Plane};
+use crate::psp::project::local::block::{Candidate, Candidates, NONE, Plane, View};
 use crate::psp::project::local::charts::Charts;
 use crate::psp::project::local::near::Marks;
 use crate::psp::project::local::projector::LocalProjector;
 use crate::psp::project::local::torus::Torus;
+use crate::psp::project::rays::TraceSpace;
 use crate::psp::set::{Sample, SampleSet, Surroundings};
 use crate::rng::{Draw, Rng};
 
@@ -37,20 +40,25 @@ const CUBES: f64 = 2.0;
 /// The least distance of a hit from the edges of its triangle, in diagonals of the mesh's box.
 pub const TOLERANCE: f64 = 1e-6;
 
-/// The pattern of local projectors.
+/// The pattern of local projectors, and the mesh for rays if these are the engine.
 pub struct LocalProjection {
     torus: Torus,
+    space: Option<Arc<TraceSpace>>,
 }
 
 impl LocalProjection {
-    pub fn new(job: &Job, seed: u64) -> Result<Self> {
-        Ok(Self { torus: Torus::new(job, seed)? })
+    pub fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
+        let space = match options.engine {
+            Engine::Embree => Some(TraceSpace::of(&job.part(0.0, 0.7), mesh)?),
+            Engine::Rasteriser | Engine::Auto => None,
+        };
+        Ok(Self { torus: Torus::new(&job.part(0.7, 1.0), options.seed)?, space })
     }
 
     /// Projects the pattern, and adds what conflicts with nothing that was there or comes first.
     pub fn advance(&self, job: &Job, pass: &Pass, samples: &mut SampleSet) -> Result<Projected> {
         let given = pass.given.alike();
-        let mut rng = Rng::at(pass.options.seed, Draw::Block, &[pass.iteration.into()]);
+        let mut rng = Rng::at(pass.options.seed, Draw::Charts, &[pass.iteration.into()]);
         let shift = [(); 3].map(|()| rng.unit());
         // Given samples of the same radius keep others away like the set's own.
         let mut wide = samples.widened(CUBES, shift, given.iter().map(|&position| Sample::at(position)));
@@ -72,19 +80,23 @@ impl LocalProjection {
         let unit = 1.0 + moved + 1e-9;
         let (box_low, box_high) = pass.mesh.bounds();
         let tolerance = TOLERANCE * exact(box_low).distance(exact(box_high)) / (radius * unit);
+        let reach = 0.5 * (high - low).length() / radius + 1.0;
+        let view = View { centre, radius, reach };
+        let traced = self.space.as_deref().map(|space| (space, &view));
         let mut candidates = Candidates::default();
         let mut last = vec![NONE; self.torus.len()];
         for (chart, &axis) in charts.axes.iter().enumerate() {
             let [x, y, z] = block.cube.key();
-            let mut rng = Rng::at(pass.options.seed, Draw::Rotation, &[pass.iteration.into(), x, y, z, chart as u64]);
+            let mut rng = Rng::at(pass.options.seed, Draw::Charts, &[pass.iteration.into(), x, y, z, chart as u64]);
             let plane = Plane {
                 mesh: pass.mesh,
                 torus: &self.torus,
                 projector: LocalProjector::new(axis, 1.0 / unit, &mut rng),
                 tolerance,
                 pieces: &block.items.pieces,
+                facets: charts.facets(chart).collect(),
             };
-            candidates.draw(&plane, &charts, chart, &mut last);
+            candidates.add(&plane, chart, &mut last, traced);
         }
         choose(pass, block, set, &candidates)
     }

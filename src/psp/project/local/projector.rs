@@ -12,7 +12,9 @@ use crate::rng::Rng;
 pub struct LocalProjector {
     right: DVec3,
     up: DVec3,
+    forward: DVec3,
     offset: DVec2,
+    scale: f64,
 }
 
 impl LocalProjector {
@@ -22,7 +24,19 @@ impl LocalProjector {
         let (right, up) = (scale * right, scale * up);
         let turn = direction(std::f64::consts::TAU * rng.unit());
         let offset = 1024.0 * DVec2::new(rng.unit(), rng.unit());
-        Self { right: turn.x * right + turn.y * up, up: turn.x * up - turn.y * right, offset }
+        let (right, up) = (turn.x * right + turn.y * up, turn.x * up - turn.y * right);
+        Self { right, up, forward: axis, offset, scale }
+    }
+
+    /// The axis.
+    pub fn forward(&self) -> DVec3 {
+        self.forward
+    }
+
+    /// The point above a place, on the plane through the origin.
+    pub fn lift(&self, place: DVec2) -> DVec3 {
+        let DVec2 { x, y } = (place - self.offset) / (self.scale * self.scale);
+        x * self.right + y * self.up
     }
 
     /// The place of a point on the plane.
@@ -117,6 +131,8 @@ mod tests {
             let (seen, true_distance) = (projector.see(a).distance(projector.see(b)), a.distance(b));
             let across = (b - a).reject_from(axis).length();
             assert!((seen - 0.75 * across).abs() < 1e-9 && seen <= 0.75 * true_distance + 1e-9);
+            let lifted = projector.lift(projector.see(a));
+            assert!(projector.see(lifted).distance(projector.see(a)) < 1e-9 && lifted.dot(axis).abs() < 1e-9);
         }
     }
 }

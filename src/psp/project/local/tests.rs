@@ -9,7 +9,7 @@ use crate::job::Context;
 use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::psp::{self, Options, Priority, ProjectionOptions, Psp, Report};
+use crate::psp::{self, Engine, Options, Priority, ProjectionOptions, Psp, Report};
 
 #[path = "../../../../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
@@ -67,6 +67,24 @@ fn no_pair_is_closer_than_the_radius_and_threads_change_nothing() {
         }
     }
     assert!(found > 50_000, "{found}");
+}
+
+#[test]
+#[cfg_attr(not(feature = "embree"), ignore = "one of them is Embree")]
+fn both_engines_give_the_same_bits() {
+    let mut hits = 0;
+    for (name, mesh, radius) in cases() {
+        for seed in 0..3 {
+            let made = |engine| project(&mesh, &ProjectionOptions::new(radius).seed(seed).engine(engine), 2, 2);
+            let ((drawn, report), (traced, other)) = (made(Engine::Rasteriser), made(Engine::Embree));
+            assert_eq!(drawn, traced, "{name}, seed {seed}");
+            let counts = |report: Report| [report.hits, report.accepted, report.conflicts, report.restart_conflicts];
+            assert_eq!(counts(report), counts(other), "{name}, seed {seed}");
+            assert_eq!(made(Engine::Auto).0, drawn);
+            hits += report.hits;
+        }
+    }
+    assert!(hits > 200_000, "{hits}");
 }
 
 #[test]
