@@ -13,13 +13,13 @@ use crate::edit::region;
 use crate::error::raised;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::psp::{PspReport, priority};
+use crate::psp::{PspReport, priority, projectors};
 use crate::watch::Watch;
 
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
 /// change it; another one, from another thread or from progress, raises RuntimeError.
 ///
-/// mesh, radius, seed, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
+/// mesh, radius, seed, projectors, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Psp {
     state: RwLock<State>,
@@ -95,13 +95,15 @@ pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
 impl Psp {
     #[new]
     #[pyo3(signature = (
-        mesh, radius, *, seed=0, priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0
+        mesh, radius, *, seed=0, projectors="local", priority="squareness", given_positions=None,
+        given_clearances=None, cosine=-1.0
     ))]
     fn new(
         py: Python<'_>,
         mesh: &Mesh,
         radius: f64,
         seed: i128,
+        projectors: &str,
         priority: &str,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
@@ -110,6 +112,7 @@ impl Psp {
         let given = GivenArrays::read(given_positions, given_clearances)?;
         let request = psp::ProjectionOptions::new(radius)
             .seed(natural("seed", seed)?)
+            .projectors(self::projectors(projectors)?)
             .priority(self::priority(priority)?)
             .given(given.samples()?)
             .cosine(cosine);
@@ -117,10 +120,10 @@ impl Psp {
         Ok(Self { state: RwLock::new(State::Growing(set)) })
     }
 
-    /// Adds samples by iterations of projection, each along three orthogonal directions of a random frame. Two calls add
+    /// Adds samples by iterations of projection, each with other projectors. Two calls add
     /// what one with the sum of their iterations adds. Refused with a cosine above -1.
     ///
-    /// None are made where the box of the mesh is out of all proportion to its surface.
+    /// None are made by global projectors where the box of the mesh is out of all proportion to its surface.
     /// threads, progress: as in psp_sample. After Cancelled the set holds what was finished, and can still grow.
     ///
     /// Returns a PspReport of this call.

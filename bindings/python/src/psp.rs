@@ -2,7 +2,7 @@
 
 use azulejo_core::Order;
 use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
-use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority};
+use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority, Projectors};
 use pyo3::prelude::*;
 
 use crate::argument::{choice, natural, order};
@@ -69,6 +69,8 @@ impl From<psp::Report> for PspReport {
 /// iterations: of projection before the set is filled; default: none, or 1 for sets that are not maximal.
 /// maximal: whether to fill what projection leaves.
 /// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// projectors: which project the patterns of an iteration: one for each part of the mesh that faces about one direction
+///     ("local"), or three for the whole mesh ("global").
 /// priority: which of two candidates of an iteration is kept, that of the projector which it faces more squarely
 ///     ("squareness"), or of the earlier one ("projector").
 /// given_positions: float32, shape (m, 3): samples that stay and are not returned.
@@ -81,7 +83,8 @@ impl From<psp::Report> for PspReport {
 #[pyfunction]
 #[pyo3(signature = (
     mesh, radius=0.0, *, count=0, order="any", quotient=None, iterations=None, maximal=true, seed=0,
-    priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0, threads=0, progress=None
+    projectors="local", priority="squareness", given_positions=None, given_clearances=None, cosine=-1.0, threads=0,
+    progress=None
 ))]
 pub(crate) fn psp_sample(
     py: Python<'_>,
@@ -93,6 +96,7 @@ pub(crate) fn psp_sample(
     iterations: Option<i128>,
     maximal: bool,
     seed: i128,
+    projectors: &str,
     priority: &str,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
@@ -109,12 +113,17 @@ pub(crate) fn psp_sample(
         .iterations(iterations)
         .maximal(maximal)
         .seed(natural("seed", seed)?)
+        .projectors(self::projectors(projectors)?)
         .priority(self::priority(priority)?)
         .given(given.samples()?)
         .cosine(cosine);
     let (samples, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| request.sample(context, &mesh.shared, progress))?;
     Points::surface(py, samples)?.with_report(py, PspReport::from(report))
+}
+
+pub(crate) fn projectors(name: &str) -> PyResult<Projectors> {
+    choice("projectors", name, &[("local", Projectors::Local), ("global", Projectors::Global)])
 }
 
 pub(crate) fn priority(name: &str) -> PyResult<Priority> {
