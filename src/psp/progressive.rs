@@ -15,7 +15,7 @@ use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, Surface, require
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::levels::{self, Levels};
-use crate::psp::options::{Amount, FlatOptions, Options, ProjectionOptions, Projectors, Request, check_quotient};
+use crate::psp::options::{Amount, FlatOptions, Options, ProjectionOptions, Request, check_quotient};
 use crate::psp::project::{Pass, Projection, is_worth_projecting};
 use crate::psp::report::{Report, rho};
 use crate::psp::set::SampleSet;
@@ -64,7 +64,7 @@ impl Psp {
             samples,
             is_maximal: false,
             measures,
-            projects: options.projectors == Projectors::Local || is_worth_projecting(mesh, radius, estimate),
+            projects: is_worth_projecting(mesh, options, estimate),
             projection: None,
             iterations: 0,
         })
@@ -73,7 +73,8 @@ impl Psp {
     /// Makes more iterations. Samples are only added; two calls add the same samples as one call with the sum of their
     /// iterations.
     ///
-    /// Time grows with the area of the mesh's box over the squared radius, and with the hits. Where that is out of all
+    /// Time grows with the hits and the triangles; with global projectors, with the area of the mesh's box over the squared
+    /// radius, and with the hits. Where that is out of all
     /// proportion to the surface, as for small parts far apart (more than 20 rays for each sample that can stand on the
     /// surface, and 10 million rays in all), nothing is done and the report counts no iteration: use [`Psp::fill`].
     ///

@@ -1,9 +1,11 @@
 //! Progressive sample projection (thesis chapter 3): the pattern, the projectors, the engine that finds their hits,
 //! ready for a mesh and a radius, and the choice among the candidates.
 //!
-//! The engines are Embree's ray packets (`rays.rs`) and a rasteriser (`raster.rs`).
+//! Projectors are local (`local/`) or global (`global.rs`). The engines are Embree's ray packets (`rays.rs`) and a
+//! rasteriser (`raster.rs`, `local/block.rs`).
 
 pub mod candidates;
+pub mod global;
 pub mod local;
 mod pattern;
 pub mod projector;
@@ -12,20 +14,16 @@ mod rays;
 #[cfg(test)]
 mod tests;
 
-use glam::DMat3;
-
 use crate::error::Result;
 use crate::host::Stopwatch;
 use crate::job::Job;
 use crate::mesh::{Mesh, exact};
 use crate::psp::fill::{DENSITY, Measures};
 use crate::psp::given::GivenSamples;
-use crate::psp::options::{Engine, ProjectionOptions, Projectors};
-use crate::psp::project::candidates::{Candidates, Collector, Projected, merge};
+use crate::psp::options::{ProjectionOptions, Projectors};
+use crate::psp::project::candidates::Projected;
+use crate::psp::project::global::GlobalProjection;
 use crate::psp::project::local::LocalProjection;
-use crate::psp::project::projector::Projector;
-use crate::psp::project::raster::Rasteriser;
-use crate::psp::project::rays::Rays;
 use crate::psp::report::Report;
 use crate::psp::set::SampleSet;
 
@@ -79,53 +77,7 @@ impl Projection {
     }
 }
 
-/// A pattern for three orthogonal projectors through the whole mesh.
-pub struct GlobalProjection {
-    hits: Hits,
-    /// The frame of the last iteration.
-    pub frame: Option<DMat3>,
-}
-
-/// The engine that finds the hits.
-enum Hits {
-    Embree(Rays),
-    Rasteriser(Rasteriser),
-}
-
-impl GlobalProjection {
-    fn new(job: &Job, mesh: &Mesh, options: &ProjectionOptions) -> Result<Self> {
-        let ProjectionOptions { radius, seed, .. } = *options;
-        let hits = match options.engine.of_global() {
-            Engine::Embree => Hits::Embree(Rays::new(job, mesh, radius, seed)?),
-            _ => Hits::Rasteriser(Rasteriser::new(job, mesh, radius, seed)?),
-        };
-        Ok(Self { hits, frame: None })
-    }
-
-    /// Collects all hits of three projectors, by cubes.
-    pub fn project(&self, job: &Job, projectors: &[Projector; 3], collector: &Collector) -> Result<Candidates> {
-        match &self.hits {
-            Hits::Embree(rays) => rays.project(job, projectors, collector),
-            Hits::Rasteriser(rasteriser) => rasteriser.project(job, projectors, collector),
-        }
-    }
-
-    fn advance(&mut self, job: &Job, pass: &Pass, samples: &mut SampleSet, report: &mut Report) -> Result<Projected> {
-        let mut stage = Stopwatch::start();
-        let &ProjectionOptions { seed, priority, .. } = pass.options;
-        let frame = projector::frame(seed, pass.iteration, self.frame);
-        let projectors = &Projector::all(frame, seed, pass.iteration);
-        let collector = Collector { mesh: pass.mesh, samples, priority, projectors };
-        let (candidates, projected) = self.project(&job.part(0.0, 0.6), projectors, &collector)?;
-        report.project_seconds += stage.lap();
-        merge(&job.part(0.6, 1.0), pass.given, samples, &candidates)?;
-        report.merge_seconds += stage.lap();
-        self.frame = Some(frame);
-        Ok(projected)
-    }
-}
-
-/// An iteration is skipped if it would trace more rays than this for each sample that can lie on the surface. Parts far
+/// An iteration of global projectors is skipped if it would trace more rays than this for each sample that can lie on the surface. Parts far
 /// apart in a large box are hit that rarely. (Filling alone is as fast from 5 rays per sample on, measured on dust, and
 /// nearly twice as fast with 27; up to there an iteration that was requested is made.)
 const RAYS_PER_SAMPLE: f64 = 20.0;
@@ -133,8 +85,9 @@ const RAYS_PER_SAMPLE: f64 = 20.0;
 const RAYS_ALWAYS: f64 = 1e7;
 
 /// True if iterations are worth their rays for so many expected samples.
-pub fn is_worth_projecting(mesh: &Mesh, radius: f64, samples: f64) -> bool {
-    mesh.area() > 0.0 && expected_rays(mesh, radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * samples)
+pub fn is_worth_projecting(mesh: &Mesh, options: &ProjectionOptions, samples: f64) -> bool {
+    let has_few_rays = || expected_rays(mesh, options.radius) <= RAYS_ALWAYS.max(RAYS_PER_SAMPLE * samples);
+    mesh.area() > 0.0 && (options.projectors == Projectors::Local || has_few_rays())
 }
 
 /// The cost of an iteration in rays: one for each pattern point in the projection of the mesh's box, and a sixteenth

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
 use crate::psp::options::{Engine, Priority, ProjectionOptions};
-use crate::psp::project::GlobalProjection;
 use crate::psp::project::candidates::Collector;
+use crate::psp::project::global::GlobalProjection;
 use crate::psp::project::projector::{Projector, frame};
 use crate::psp::set::{Sample, SampleSet};
 

@@ -1,21 +1,26 @@
 //! The candidates of a block: the hits of its local projectors, chart by chart.
 //!
-//! There are two engines, with the same hits in the same order. Triangles are drawn over the plane of their chart row by row (Pineda 1988), as the rasteriser of the global projectors
-//! does over its tiles (`raster.rs`). Or rays are traced through the points of the pattern by Embree, which only says on
-//! which triangles a hit can be: whether it is one, and its barycentrics, is calculated from the point of the pattern in
-//! both cases.
+//! There are two engines, with the same hits in the same order. Triangles are drawn over the plane of their chart row by
+//! row (Pineda 1988), as the rasteriser of the global projectors does over its tiles (`raster.rs`). Or rays are traced
+//! through the points of the pattern by Embree, which only says on which triangles a hit can be: whether it is one, and
+//! its barycentrics, is calculated from the point of the pattern in both cases.
 
 use glam::{DVec2, DVec3};
 
-use crate::mesh::{Mesh, round_barycentrics};
+use crate::mesh::{Mesh, exact, round_barycentrics};
+use crate::psp::fill::Block;
 use crate::psp::fragment::Fragment;
+use crate::psp::project::Pass;
 use crate::psp::project::candidates::rank;
-use crate::psp::project::local::charts::Facet;
+use crate::psp::project::local::charts::{Charts, Facet};
 use crate::psp::project::local::projector::{LocalProjector, SeenTriangle};
 use crate::psp::project::local::torus::Torus;
 use crate::psp::project::rays::TraceSpace;
 use crate::psp::set::Sample;
 use crate::trace::{Hit, Ray};
+
+/// The least distance of a hit from the edges of its triangle, in diagonals of the mesh's box.
+const TOLERANCE: f64 = 1e-6;
 
 /// No candidate.
 pub const NONE: u32 = u32::MAX;
@@ -40,7 +45,7 @@ pub struct Candidates {
 }
 
 /// A chart on its plane.
-pub struct Plane<'a> {
+struct Plane<'a> {
     pub mesh: &'a Mesh,
     pub torus: &'a Torus,
     pub projector: LocalProjector,
@@ -116,7 +121,7 @@ impl Seen<'_> {
 }
 
 /// A block as rays see it.
-pub struct View {
+struct View {
     pub centre: DVec3,
     pub radius: f64,
     /// The distance from the centre at which nothing is left of the block, in radii.
@@ -124,9 +129,40 @@ pub struct View {
 }
 
 impl Candidates {
+    /// All candidates of a block: traced if there is a space for rays, otherwise drawn.
+    pub fn of(pass: &Pass, block: &Block, radius: f64, torus: &Torus, space: Option<&TraceSpace>) -> Self {
+        let [low, high] = block.extent.corners().map(exact);
+        let centre = 0.5 * low + 0.5 * high;
+        let charts = Charts::new(pass.mesh, block, centre, 1.0 / radius);
+        // Hits are moved by the rounding of their barycentrics and positions.
+        let moved = 2.0 * pass.mesh.float_spacing() / radius + charts.longest * 2f64.powi(-22);
+        let unit = 1.0 + moved + 1e-9;
+        let (box_low, box_high) = pass.mesh.bounds();
+        let tolerance = TOLERANCE * exact(box_low).distance(exact(box_high)) / (radius * unit);
+        let reach = 0.5 * (high - low).length() / radius + 1.0;
+        let view = View { centre, radius, reach };
+        let traced = space.map(|space| (space, &view));
+        let mut candidates = Candidates::default();
+        let mut last = vec![NONE; torus.len()];
+        for (chart, &axis) in charts.axes.iter().enumerate() {
+            let [x, y, z] = block.cube.key();
+            let place = [pass.iteration.into(), x, y, z, chart as u64];
+            let plane = Plane {
+                mesh: pass.mesh,
+                torus,
+                projector: LocalProjector::at(pass.options.seed, &place, axis, 1.0 / unit),
+                tolerance,
+                pieces: &block.items.pieces,
+                facets: charts.facets(chart).collect(),
+            };
+            candidates.add(&plane, chart, &mut last, traced);
+        }
+        candidates
+    }
+
     /// Adds the hits on the facets of a chart. `last` has the candidate that was found last on each point of the
     /// pattern, or any number.
-    pub fn add(&mut self, plane: &Plane, chart: usize, last: &mut [u32], traced: Option<(&TraceSpace, &View)>) {
+    fn add(&mut self, plane: &Plane, chart: usize, last: &mut [u32], traced: Option<(&TraceSpace, &View)>) {
         let start = self.all.len() as u32;
         let mut push = |on: &OnFacet, number: usize, barycentrics: [f64; 2]| {
             let sample = Sample::on(&on.corners, on.triangle, round_barycentrics(barycentrics));

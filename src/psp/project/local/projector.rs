@@ -6,7 +6,13 @@
 use glam::{DVec2, DVec3};
 
 use crate::math::direction;
-use crate::rng::Rng;
+use crate::rng::{Draw, Rng};
+
+/// The shift of all blocks in an iteration, in their sides.
+pub fn shift_of_blocks(seed: u64, iteration: u32) -> [f64; 3] {
+    let mut rng = Rng::at(seed, Draw::Charts, &[iteration.into()]);
+    [(); 3].map(|()| rng.unit())
+}
 
 /// A plane that carries the pattern.
 pub struct LocalProjector {
@@ -18,8 +24,13 @@ pub struct LocalProjector {
 }
 
 impl LocalProjector {
+    /// The plane across the axis of a chart, at its place: the iteration, the cube and its number.
+    pub fn at(seed: u64, place: &[u64], axis: DVec3, scale: f64) -> Self {
+        Self::new(axis, scale, &mut Rng::at(seed, Draw::Charts, place))
+    }
+
     /// A plane across an axis, turned and moved at random, that shows lengths at a scale.
-    pub fn new(axis: DVec3, scale: f64, rng: &mut Rng) -> Self {
+    fn new(axis: DVec3, scale: f64, rng: &mut Rng) -> Self {
         let (right, up) = axis.any_orthonormal_pair();
         let (right, up) = (scale * right, scale * up);
         let turn = direction(std::f64::consts::TAU * rng.unit());
@@ -88,7 +99,6 @@ impl SeenTriangle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rng::Draw;
 
     #[test]
     fn hits_are_the_points_that_keep_the_tolerance_from_all_edges() {
