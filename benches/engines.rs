@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{Engine, ProjectionOptions, Psp, Report};
+use azulejo::psp::{Engine, ProjectionOptions, Projectors, Psp, Report};
 use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -24,7 +24,7 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
 
 /// ProjectionOptions for a set that has about `count` samples once it is maximal.
 fn options(mesh: &Mesh, count: f64, engine: Engine) -> ProjectionOptions<'static> {
-    ProjectionOptions::new((MAXIMAL_DENSITY * mesh.area() / count).sqrt()).engine(engine)
+    ProjectionOptions::new((MAXIMAL_DENSITY * mesh.area() / count).sqrt()).projectors(Projectors::Global).engine(engine)
 }
 
 fn iterate(context: &Context, mesh: &Arc<Mesh>, options: &ProjectionOptions) -> Report {

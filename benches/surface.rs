@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, ProjectionOptions, Psp};
+use azulejo::psp::{self, ProjectionOptions, Projectors, Psp};
 use azulejo::{Context, MAXIMAL_DENSITY};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -32,7 +32,7 @@ fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
 
 fn surface(criterion: &mut Criterion) {
     let mesh = mesh(meshes::fine_torus(500, 200));
-    let options = ProjectionOptions::new(radius(&mesh, 1e5));
+    let options = ProjectionOptions::new(radius(&mesh, 1e5)).projectors(Projectors::Global);
     let cases = [
         ("one iteration", 1, false),
         ("three iterations", 3, false),
@@ -80,7 +80,8 @@ struct Times {
 
 impl Times {
     fn of(context: &Context, mesh: &Arc<Mesh>, radius: f64) -> Self {
-        let mut psp = Psp::new(mesh, &ProjectionOptions::new(radius)).expect("a good radius");
+        let mut psp =
+            Psp::new(mesh, &ProjectionOptions::new(radius).projectors(Projectors::Global)).expect("a good radius");
         let first = psp.advance(context, 1, None).expect("an iteration");
         let filled = psp.fill(context, None).expect("a maximal set");
         let start = Instant::now();

@@ -58,6 +58,8 @@ pub(crate) enum Draw {
     Edit,
     /// Darts in the blocks of a volume.
     Volume,
+    /// PSP: the shift of the blocks of local projectors, and the turns and shifts of their patterns.
+    Charts,
 }
 
 /// The stream of random numbers of one place.

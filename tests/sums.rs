@@ -1,5 +1,5 @@
 //! SHA-256 sums of what calls return: the same bytes for any number of threads and on every processor and system, since
-//! `tests/sums.txt` was written. Only hits of Embree are left out.
+//! `tests/sums.txt` was written. Only hits of Embree on global projectors are left out.
 //!
 //! Most calls are those of a grid: each sampler by all that can be asked of it, on small sets, whose sums are in
 //! `tests/few_sums.txt` and which an emulated processor makes in seconds (`scripts/platforms.sh`), and on large ones. The

@@ -108,7 +108,7 @@ impl Request {
             seed: input.any(),
             maximal: u32::from(!input.one_in(4)),
             priority: u32::from(input.one_in(4)),
-            engine: u32::from(input.one_in(2)),
+            engine: input.below(3),
             order: AZULEJO_ORDER_ANY,
             progress: Some(Patience::tell),
             progress_user: patience.user(),
@@ -118,6 +118,8 @@ impl Request {
             given_clearances: given.clearances.as_ref().map_or(std::ptr::null(), |clearances| clearances.as_ptr()),
             given_count: given.positions.len(),
             cosine: if input.one_in(8) { input.number() } else { -1.0 },
+            projectors: u32::from(input.one_in(2)),
+            reserved: 0,
         };
         Some(Self { corners, radius, patience, given, options })
     }
@@ -281,7 +283,8 @@ fn of_classes(mesh: &Owned<azulejo_mesh>, corners: &Corners, options: &azulejo_p
         maximal: 1,
         radius: 0.0,
         priority: AZULEJO_PRIORITY_SQUARENESS,
-        engine: AZULEJO_ENGINE_EMBREE,
+        engine: AZULEJO_ENGINE_AUTO,
+        projectors: AZULEJO_PROJECTORS_LOCAL,
         given_positions: std::ptr::null(),
         given_clearances: std::ptr::null(),
         given_count: 0,

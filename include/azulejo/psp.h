@@ -59,13 +59,23 @@ azulejo_status azulejo_psp_report_init(azulejo_psp_report *report, size_t struct
 /// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2).
 #define AZULEJO_PRIORITY_PROJECTOR 1
 
-/// Ray packets of Embree find where patterns meet the mesh: the default.
-#define AZULEJO_ENGINE_EMBREE 0
+/// Each iteration has a projector for every part of the mesh in a cube of 48 radii that faces about
+/// one direction: the default.
+#define AZULEJO_PROJECTORS_LOCAL 0
 
-/// Triangles are rasterised over the patterns in exact integer arithmetic (thesis section 3.4.3):
-/// the result does not depend on the machine or on Embree. The hits are those of Embree but for
-/// rounding by up to 2e-7 of the mesh's diagonal.
+/// Each iteration has three orthogonal projectors for the whole mesh, as in the thesis (section
+/// 3.3.1).
+#define AZULEJO_PROJECTORS_GLOBAL 1
+
+#define AZULEJO_ENGINE_EMBREE 0 ///< Ray packets of Embree find where patterns meet the mesh.
+
+/// Triangles are rasterised over the patterns (thesis section 3.4.3). With local projectors the
+/// samples are those of Embree, to the bit. With global ones the hits are those of Embree but for
+/// rounding by up to 2e-7 of the mesh's diagonal, and do not depend on the machine.
 #define AZULEJO_ENGINE_RASTERISER 1
+
+/// The default: the rasteriser for local projectors, and for global ones Embree where there is one.
+#define AZULEJO_ENGINE_AUTO 2
 
 /// The `iterations` of azulejo_psp_options that stand for a rule.
 #define AZULEJO_ITERATIONS_DEFAULT 4294967295
@@ -77,7 +87,7 @@ typedef struct azulejo_psp azulejo_psp;
 /// Options of azulejo_psp_create and azulejo_psp_sample.
 typedef struct azulejo_psp_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
-    /// The number of projections of patterns by azulejo_psp_sample, in 3 directions each, before it
+    /// The number of projections of patterns onto the whole mesh by azulejo_psp_sample, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0, with which sets are made sooner
     /// and prefer no direction, or 1 if `maximal` is 0; a `maximal` of 0 with 0 iterations is
     /// refused. azulejo_psp_create refuses any value but the default.
@@ -90,8 +100,7 @@ typedef struct azulejo_psp_options {
     /// thesis does, and leaves some per cent of the surface uncovered; not in azulejo_psp_create.
     uint32_t maximal;
     uint32_t priority; ///< An AZULEJO_PRIORITY_ constant; default squareness.
-    /// An AZULEJO_ENGINE_ constant; default Embree, without which it is the rasteriser.
-    uint32_t engine;
+    uint32_t engine; ///< An AZULEJO_ENGINE_ constant; default auto.
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well. `iterations` above 0 and a `maximal` of
     /// 0 are then refused. Must be any in azulejo_psp_create.
@@ -122,6 +131,8 @@ typedef struct azulejo_psp_options {
     /// with the same normal see each other. Given samples act on all sides. Above -1 iterations are
     /// refused, as projection does not tell sides apart.
     double cosine;
+    uint32_t projectors; ///< An AZULEJO_PROJECTORS_ constant; default local.
+    uint32_t reserved; ///< Must be 0.
 } azulejo_psp_options;
 
 /// Writes the defaults.
@@ -194,7 +205,7 @@ azulejo_status azulejo_psp_sample(const azulejo_context *context,
 /// Shares, and in progressive order prefixes, are as azulejo_kdrt_sample_classes says; infinite
 /// ranks count as the diagonal of the mesh's box.
 /// - options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
-///   `priority` and `engine` must have their defaults.
+///   `projectors`, `priority` and `engine` must have their defaults.
 /// - classes: the radii, and where each class may stand.
 /// - out: the samples with normals, triangles, barycentrics and classes, by which they are sorted.
 /// - O(samples + classes * triangles) time. With two classes a sample takes about twice the time of
@@ -276,8 +287,8 @@ azulejo_status azulejo_psp_refill(azulejo_psp *psp,
 /// of azulejo_psp_fill. What lies outside counts as covered. Samples stand in the region, or at
 /// most 6 radii outside it on a triangle that it touches. For many edits of one set see
 /// azulejo_psp_erase.
-/// - options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
-///   defaults.
+/// - options: `iterations`, `maximal`, `count`, `order`, `projectors`, `priority` and `engine` must
+///   have their defaults.
 /// - out: the samples with normals, triangles and barycentrics.
 /// - report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after`
 ///   are -1.

@@ -4,9 +4,10 @@
 //! triangles, round after round until none is open (`fill/`). No rays are traced.
 //!
 //! Iterations of projection precede it only on request ([`project`], [`Psp::advance`]), or replace it in sets that need
-//! not be maximal. A planar Poisson-disk pattern is projected along three orthogonal directions through the mesh, by
-//! rays of Embree or by a rasteriser ([`Engine`]); all hits are candidates; those that conflict with nothing of higher
-//! priority become samples. More iterations from other directions only add samples, and [`Psp::fill`] closes the gaps.
+//! not be maximal. A planar Poisson-disk pattern is projected onto the mesh, along a direction for each part of it
+//! ([`Projectors::Local`]) or along three orthogonal directions through all of it ([`Projectors::Global`]), by a
+//! rasteriser or by rays of Embree ([`Engine`]); all hits are candidates; those that conflict with nothing of higher
+//! priority become samples. More iterations with other projectors only add samples, and [`Psp::fill`] closes the gaps.
 //!
 //! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, in straight lines
 //!   through space (not along the surface).
@@ -16,8 +17,8 @@
 //!   clearance of one is covered. Given samples are not compared with each other, nor returned.
 //! * *Of several classes* ([`sample_classes`]): the same for every class, around samples of the others.
 //! * *Deterministic*: the samples and their order depend on mesh, radius, seed and the sequence of calls, not on the
-//!   number of threads. Between machines whose Embree traces packets of another width the last bits of a hit can
-//!   differ.
+//!   number of threads. Only with Embree and global projectors the last bits of a hit can differ between machines
+//!   whose Embree traces packets of another width.
 
 pub mod adaptive;
 mod classes;
@@ -36,7 +37,8 @@ pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
 pub use options::{
-    Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, RegionOptions,
+    Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors,
+    RegionOptions,
 };
 pub use progressive::{Psp, project, sample};
 pub use report::Report;

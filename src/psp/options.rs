@@ -20,28 +20,47 @@ pub enum Priority {
     Projector,
 }
 
-/// The engine that finds the hits of the projectors. Both find the same ones, up to rounding: points and edges move
-/// against each other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an edge
-/// may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
+/// The projectors of an iteration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projectors {
+    /// A projector for each chart: a part of the surface that lies in one cube, 48 radii wide, and faces about one
+    /// direction. An iteration takes a fraction of the time of a maximal set and finds most of its samples.
+    #[default]
+    Local,
+    /// Three orthogonal projectors for the whole mesh (thesis §3.3.1).
+    Global,
+}
+
+/// The engine that finds the hits of the projectors.
 ///
-/// The default is Embree, where a build has it ([`HAS_EMBREE`](crate::trace::HAS_EMBREE)).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// With [local projectors](Projectors::Local) all engines give the same samples, to the bit, on every machine: Embree
+/// only says on which triangles a hit can be, and a point of the pattern that is nearer than a millionth of the mesh's
+/// diagonal to an edge of a triangle, as its projector sees them, does not hit it.
+///
+/// With [global ones](Projectors::Global) Embree and the rasteriser have the same hits up to rounding: points and edges
+/// move against each other by up to 2e-7 of the mesh's diagonal, as their projector sees them. A point that near to an
+/// edge may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Engine {
+    /// The rasteriser for local projectors; for global ones Embree, where a build has it
+    /// ([`HAS_EMBREE`](crate::trace::HAS_EMBREE)).
+    #[default]
+    Auto,
     /// Packets of rays through the hierarchy of Embree: the time grows with the number of rays.
     Embree,
-    /// Triangles drawn over the pattern in exact integer arithmetic (thesis §3.4.3): the time grows with the number of
-    /// triangles. A point on an edge that triangles share hits one of them on either side, never none or both.
+    /// Triangles drawn over the pattern (thesis §3.4.3): the time grows with the number of triangles. With global
+    /// projectors in exact integer arithmetic: a point on an edge that triangles share hits one of them on either side,
+    /// never none or both.
     Rasteriser,
 }
 
 impl Engine {
-    /// The engines that this build has.
+    /// The engines that this build can be asked for by name.
     pub const AVAILABLE: &[Self] = if HAS_EMBREE { &[Self::Embree, Self::Rasteriser] } else { &[Self::Rasteriser] };
-}
 
-impl Default for Engine {
-    fn default() -> Self {
-        Self::AVAILABLE[0]
+    /// The engine of global projectors.
+    pub(super) fn of_global(self) -> Self {
+        if self == Self::Auto { Self::AVAILABLE[0] } else { self }
     }
 }
 
@@ -109,6 +128,8 @@ pub struct ProjectionOptions<'a> {
     pub radius: f64,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// The projectors of each iteration.
+    pub projectors: Projectors,
     /// The candidates that come first.
     pub priority: Priority,
     /// The engine that finds the hits.
@@ -124,17 +145,24 @@ impl ProjectionOptions<'_> {
     /// Sets of this radius.
     pub fn new(radius: f64) -> Self {
         let (priority, engine, given) = (Priority::default(), Engine::default(), Given::default());
-        Self { radius, seed: 0, priority, engine, given, cosine: -1.0 }
+        Self { radius, seed: 0, projectors: Projectors::default(), priority, engine, given, cosine: -1.0 }
     }
 
     /// These options without the given samples.
     pub(crate) fn without_given(&self) -> ProjectionOptions<'static> {
-        let &Self { radius, seed, priority, engine, given: _, cosine } = self;
-        ProjectionOptions { radius, seed, priority, engine, given: Given::default(), cosine }
+        let &Self { radius, seed, projectors, priority, engine, given: _, cosine } = self;
+        ProjectionOptions { radius, seed, projectors, priority, engine, given: Given::default(), cosine }
     }
 }
 
-setters!(ProjectionOptions<'a> { seed: u64, priority: Priority, engine: Engine, given: Given<'a, 3>, cosine: f64 });
+setters!(ProjectionOptions<'a> {
+    seed: u64,
+    projectors: Projectors,
+    priority: Priority,
+    engine: Engine,
+    given: Given<'a, 3>,
+    cosine: f64,
+});
 
 /// The options of [`sample_region`](super::sample_region).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,6 +208,8 @@ pub struct FlatOptions<'a> {
     pub maximal: bool,
     /// Selects one of 2^64 sets.
     pub seed: u64,
+    /// As [`ProjectionOptions::projectors`].
+    pub projectors: Projectors,
     /// As [`ProjectionOptions::priority`].
     pub priority: Priority,
     /// As [`ProjectionOptions::engine`].
@@ -201,6 +231,7 @@ impl<'a> FlatOptions<'a> {
             iterations: None,
             maximal: true,
             seed: 0,
+            projectors: Projectors::default(),
             priority: Priority::default(),
             engine: Engine::default(),
             given: Given::default(),
@@ -225,8 +256,8 @@ impl<'a> FlatOptions<'a> {
     }
 
     fn projection(&self) -> ProjectionOptions<'a> {
-        let &Self { radius, seed, priority, engine, given, cosine, .. } = self;
-        ProjectionOptions { radius, seed, priority, engine, given, cosine }
+        let &Self { radius, seed, projectors, priority, engine, given, cosine, .. } = self;
+        ProjectionOptions { radius, seed, projectors, priority, engine, given, cosine }
     }
 
     /// Refuses options that cannot be combined with a count or progressive order.
@@ -253,6 +284,7 @@ setters!(FlatOptions<'a> {
     iterations: Option<u32>,
     maximal: bool,
     seed: u64,
+    projectors: Projectors,
     priority: Priority,
     engine: Engine,
     given: Given<'a, 3>,

@@ -3,8 +3,6 @@
 
 use std::sync::Arc;
 
-use glam::DMat3;
-
 use crate::error::{Error, Result};
 use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
@@ -18,9 +16,7 @@ use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::levels::{self, Levels};
 use crate::psp::options::{Amount, FlatOptions, Options, ProjectionOptions, Request, check_quotient};
-use crate::psp::project::candidates::{Collector, merge};
-use crate::psp::project::projector::{self, Projector};
-use crate::psp::project::{Projection, is_worth_projecting};
+use crate::psp::project::{Pass, Projection, is_worth_projecting};
 use crate::psp::report::{Report, rho};
 use crate::psp::set::SampleSet;
 
@@ -44,8 +40,6 @@ pub struct Psp {
     /// Made by the first iteration.
     projection: Option<Projection>,
     iterations: u32,
-    /// The frame of the last iteration.
-    frame: Option<DMat3>,
 }
 
 impl Psp {
@@ -70,17 +64,17 @@ impl Psp {
             samples,
             is_maximal: false,
             measures,
-            projects: is_worth_projecting(mesh, radius, estimate),
+            projects: is_worth_projecting(mesh, options, estimate),
             projection: None,
             iterations: 0,
-            frame: None,
         })
     }
 
     /// Makes more iterations. Samples are only added; two calls add the same samples as one call with the sum of their
     /// iterations.
     ///
-    /// Time grows with the area of the mesh's box over the squared radius, and with the hits. Where that is out of all
+    /// Time grows with the hits and the triangles; with global projectors, with the area of the mesh's box over the squared
+    /// radius, and with the hits. Where that is out of all
     /// proportion to the surface, as for small parts far apart (more than 20 rays for each sample that can stand on the
     /// surface, and 10 million rays in all), nothing is done and the report counts no iteration: use [`Psp::fill`].
     ///
@@ -131,11 +125,14 @@ impl Psp {
         self.len() == 0
     }
 
-    /// The viewing directions of the projectors in the last iteration: orthogonal unit vectors, by the number of the
-    /// projector. They depend on the seed and the iterations, not on the mesh. For measurements.
+    /// The viewing directions of the global projectors in the last iteration: orthogonal unit vectors, by the number of
+    /// the projector. They depend on the seed and the iterations, not on the mesh. For measurements.
     #[doc(hidden)]
     pub fn directions(&self) -> Option<[[f64; 3]; 3]> {
-        self.frame.map(|frame| frame.to_cols_array_2d())
+        match &self.projection {
+            Some(Projection::Global(global)) => global.frame.map(|frame| frame.to_cols_array_2d()),
+            _ => None,
+        }
     }
 
     /// Refuses iterations of a set whose samples ignore others by their normals.
@@ -159,28 +156,15 @@ impl Psp {
             let job = job.part(share(step), share(step + 1));
             let mut stage = Stopwatch::start();
             let prepared = if self.projection.is_some() { 0.0 } else { 0.3 };
+            let Self { mesh, measures, given, options, iterations, .. } = self;
             let projection = match &mut self.projection {
                 Some(projection) => projection,
-                none => none.insert(Projection::new(&job.part(0.0, prepared), &self.mesh, &self.options)?),
+                none => none.insert(Projection::new(&job.part(0.0, prepared), mesh, options)?),
             };
             report.prepare_seconds += stage.lap();
-            let ProjectionOptions { seed, priority, .. } = self.options;
-            let frame = projector::frame(seed, self.iterations, self.frame);
-            let projectors = &Projector::all(frame, seed, self.iterations);
-            let collector = Collector { mesh: &self.mesh, samples: &self.samples, priority, projectors };
-            let (candidates, projected) = projection.project(&job.part(prepared, 0.7), projectors, &collector)?;
-            report.project_seconds += stage.lap();
-            let accepted = merge(&job.part(0.7, 1.0), &self.given, &mut self.samples, &candidates)?;
-            report.merge_seconds += stage.lap();
+            let pass = Pass { mesh, measures, given, options, iteration: *iterations };
+            projection.advance(&job.part(prepared, 1.0), &pass, &mut self.samples, report)?;
             self.iterations += 1;
-            self.frame = Some(frame);
-
-            report.iterations += 1;
-            report.accepted += accepted;
-            report.rays += projected.rays;
-            report.hits += projected.hits;
-            report.restart_conflicts += projected.restart_conflicts;
-            report.conflicts += projected.hits - projected.restart_conflicts - accepted;
         }
         Ok(())
     }

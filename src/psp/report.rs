@@ -30,7 +30,8 @@ pub struct Report {
     pub prepare_seconds: f64,
     /// The part of `seconds` in which the hits were found.
     pub project_seconds: f64,
-    /// The part of `seconds` in which samples were chosen among the hits.
+    /// The part of `seconds` in which samples were chosen among the hits; with local projectors that is a part of
+    /// `project_seconds`.
     pub merge_seconds: f64,
     /// The part of `seconds` in which uncovered surface was searched and filled.
     pub fill_seconds: f64,

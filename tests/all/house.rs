@@ -28,7 +28,7 @@ const IMPORTING: &[(&str, usize)] = &[
     ("psp/fill/mod.rs", 13),
     ("psp/fill/uniform.rs", 18),
     ("psp/given.rs", 14),
-    ("psp/progressive.rs", 20),
+    ("psp/progressive.rs", 17),
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.

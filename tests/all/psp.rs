@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Engine, FlatOptions, Options, Priority, ProjectionOptions, Psp};
+use azulejo::psp::{self, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors, Psp};
 use azulejo::{Context, Error, MAXIMAL_DENSITY, Points};
 use proptest::prelude::*;
 
@@ -129,14 +129,19 @@ fn nothing_is_left_uncovered_on_any_kind_of_mesh() {
 
 /// A box of 10^5 radii along each side with next to nothing in it: projecting patterns through it would take hours.
 #[test]
-fn small_parts_far_apart_are_filled_without_projection() {
+fn small_parts_far_apart_are_filled_without_global_projectors() {
     let triangle = |x: f32| vec![[x, x, -x], [x + 1.0, x, -x], [x, x + 1.0, 1.0 - x]];
     let positions = [triangle(0.0), triangle(1e3), triangle(2e3)].concat();
     let mesh = mesh((positions, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]));
-    let options = ProjectionOptions::new(0.02);
-    let (samples, report) = psp::project(&Context::new(2).unwrap(), &mesh, &options, 1, true, None).unwrap();
+    let global = ProjectionOptions::new(0.02).projectors(Projectors::Global);
+    let (samples, report) = psp::project(&Context::new(2).unwrap(), &mesh, &global, 1, true, None).unwrap();
     check(&mesh, &samples, 0.02, true);
     assert_eq!((report.iterations, report.rays), (0, 0));
+    // Local projectors do not see what lies between.
+    let (samples, report) =
+        psp::project(&Context::new(2).unwrap(), &mesh, &ProjectionOptions::new(0.02), 1, true, None).unwrap();
+    check(&mesh, &samples, 0.02, true);
+    assert!(report.iterations == 1 && report.rays < 20 * report.samples, "{report:?}");
 }
 
 #[test]
@@ -209,7 +214,7 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
     let mesh = mesh(meshes::torus());
     let radius = 0.03;
     let found = [Priority::Squareness, Priority::Projector].map(|priority| {
-        let options = ProjectionOptions::new(radius).priority(priority);
+        let options = ProjectionOptions::new(radius).projectors(Projectors::Global).priority(priority);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         psp.advance(&context, 1, None).unwrap();
         check(&mesh, &psp.samples(), radius, false);
@@ -241,8 +246,12 @@ fn a_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
 fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
     let context = Context::new(2).unwrap();
     let mesh = mesh(meshes::fine_torus(100, 50));
-    for &engine in Engine::AVAILABLE {
-        let options = ProjectionOptions::new(0.01).engine(engine);
+    for (engine, projectors, merges) in [
+        (Engine::Auto, Projectors::Global, 1),
+        (Engine::Rasteriser, Projectors::Global, 1),
+        (Engine::Auto, Projectors::Local, 0),
+    ] {
+        let options = ProjectionOptions::new(0.01).engine(engine).projectors(projectors);
         let mut psp = Psp::new(&mesh, &options).unwrap();
         let first = psp.advance(&context, 1, None).unwrap();
         let second = psp.advance(&context, 1, None).unwrap();
@@ -255,7 +264,7 @@ fn a_report_says_where_the_time_went_and_how_good_the_set_is() {
         let stages = |report: &psp::Report| {
             [report.prepare_seconds, report.project_seconds, report.merge_seconds, report.fill_seconds]
         };
-        for (report, used) in [(first, [1, 1, 1, 0]), (second, [0, 1, 1, 0]), (filled, [0, 0, 0, 1])] {
+        for (report, used) in [(first, [1, 1, merges, 0]), (second, [0, 1, merges, 0]), (filled, [0, 0, 0, 1])] {
             assert!(
                 stages(&report).iter().zip(used).all(|(&seconds, used)| (seconds > 1e-4) == (used == 1)),
                 "{report:?}"

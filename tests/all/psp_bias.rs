@@ -5,7 +5,7 @@ use std::sync::Arc;
 use azulejo::analysis::facing::density_by_facing;
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Radius};
-use azulejo::psp::{Priority, ProjectionOptions, Psp};
+use azulejo::psp::{Priority, ProjectionOptions, Projectors, Psp};
 use azulejo::{Context, MAXIMAL_DENSITY};
 
 use crate::common::meshes;
@@ -44,7 +44,11 @@ fn densities(priority: Priority) -> [Vec<f64>; 2] {
     let (context, radius, seeds) = (Context::new(2).unwrap(), 0.016, 6);
     let mut sums = [(); 2].map(|()| vec![[0.0; 2]; 54 / BIN]);
     for seed in 0..seeds {
-        let mut psp = Psp::new(&mesh, &ProjectionOptions::new(radius).seed(seed).priority(priority)).unwrap();
+        let mut psp = Psp::new(
+            &mesh,
+            &ProjectionOptions::new(radius).projectors(Projectors::Global).seed(seed).priority(priority),
+        )
+        .unwrap();
         assert_eq!(psp.directions(), None);
         for (step, sums) in sums.iter_mut().enumerate() {
             let advance = if step == 0 { psp.advance(&context, 1, None) } else { psp.fill(&context, None) };
@@ -181,7 +185,8 @@ fn huge_and_tiny_triangles_are_filled_alike() {
         let radius = (2.0 * MAXIMAL_DENSITY / samples).sqrt();
         let mut counts = [0.0; 2];
         for seed in 0..seeds {
-            let mut psp = Psp::new(&mesh, &ProjectionOptions::new(radius).seed(seed)).unwrap();
+            let mut psp =
+                Psp::new(&mesh, &ProjectionOptions::new(radius).projectors(Projectors::Global).seed(seed)).unwrap();
             psp.fill(&context, None).unwrap();
             psp.samples().triangles.iter().for_each(|&triangle| counts[usize::from(triangle >= 2)] += 1.0);
         }

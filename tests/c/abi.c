@@ -131,7 +131,7 @@ FIELD(azulejo_kdrt_merge_report, kept, 8);
 FIELD(azulejo_kdrt_merge_report, eliminated, 16);
 FIELD(azulejo_kdrt_merge_report, inserted, 24);
 
-SIZE(azulejo_psp_options, 104);
+SIZE(azulejo_psp_options, 112);
 FIELD(azulejo_psp_options, struct_size, 0);
 FIELD(azulejo_psp_options, iterations, 4);
 FIELD(azulejo_psp_options, radius, 8);
@@ -148,6 +148,8 @@ FIELD(azulejo_psp_options, given_positions, 72);
 FIELD(azulejo_psp_options, given_clearances, 80);
 FIELD(azulejo_psp_options, given_count, 88);
 FIELD(azulejo_psp_options, cosine, 96);
+FIELD(azulejo_psp_options, projectors, 104);
+FIELD(azulejo_psp_options, reserved, 108);
 
 SIZE(azulejo_embree_geometry, 32);
 FIELD(azulejo_embree_geometry, geometry_id, 0);
@@ -368,6 +370,9 @@ CONSTANT(AZULEJO_PRIORITY_SQUARENESS, 0);
 CONSTANT(AZULEJO_PRIORITY_PROJECTOR, 1);
 CONSTANT(AZULEJO_ENGINE_EMBREE, 0);
 CONSTANT(AZULEJO_ENGINE_RASTERISER, 1);
+CONSTANT(AZULEJO_ENGINE_AUTO, 2);
+CONSTANT(AZULEJO_PROJECTORS_LOCAL, 0);
+CONSTANT(AZULEJO_PROJECTORS_GLOBAL, 1);
 
 /* The fixed signatures: assignments that compile only if they are these. */
 static void signatures(void) {

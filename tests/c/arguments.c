@@ -280,7 +280,9 @@ static void psp(void) {
     PSP(INVALID, "count", o.count = 5);
     PSP(INVALID, "priority", o.priority = 2);
     PSP(INVALID, "priority", o.priority = -1);
-    PSP(INVALID, "engine", o.engine = 2);
+    PSP(INVALID, "projectors", o.projectors = 2);
+    PSP(INVALID, "reserved", o.reserved = 1);
+    PSP(INVALID, "engine", o.engine = 3);
     PSP(INVALID, "engine", o.engine = -1);
     PSP(INVALID, "cosine: NaN", o.cosine = NAN);
     PSP(INVALID, "cosine: 1.5", o.cosine = 1.5);

@@ -38,9 +38,8 @@ static void refused(void) {
     REFUSED_WITH(o.iterations = 1, (void)c, "iterations");
     REFUSED_WITH(o.maximal = 0, (void)c, "maximal");
     REFUSED_WITH(o.priority = AZULEJO_PRIORITY_PROJECTOR, (void)c, "priority");
-    if (azulejo_has_embree()) { /* without it the rasteriser is the default */
-        REFUSED_WITH(o.engine = AZULEJO_ENGINE_RASTERISER, (void)c, "engine");
-    }
+    REFUSED_WITH(o.projectors = AZULEJO_PROJECTORS_GLOBAL, (void)c, "projectors");
+    REFUSED_WITH(o.engine = AZULEJO_ENGINE_RASTERISER, (void)c, "engine");
     REFUSED_WITH((void)o, c.count = 0, "count");
     REFUSED_WITH((void)o, c.count = 17, "count");
     REFUSED_WITH((void)o, c.radii = NULL, "radii");

@@ -70,7 +70,8 @@ static void defaults(void) {
     CHECK(merge.domain_min[0] == 0 && merge.domain_min[1] == 0 && merge.domain_max[0] == 1 && merge.domain_max[1] == 1);
     CHECK(merge.boundary == AZULEJO_BOUNDARY_PERIODIC && merge.progress_user == NULL);
     CHECK(psp.maximal == 1 && psp.iterations == AZULEJO_ITERATIONS_DEFAULT && psp.seed == 0 && psp.progress == NULL);
-    CHECK(psp.priority == AZULEJO_PRIORITY_SQUARENESS && psp.engine == (azulejo_has_embree() ? AZULEJO_ENGINE_EMBREE : AZULEJO_ENGINE_RASTERISER));
+    CHECK(psp.priority == AZULEJO_PRIORITY_SQUARENESS && psp.engine == AZULEJO_ENGINE_AUTO);
+    CHECK(psp.projectors == AZULEJO_PROJECTORS_LOCAL && psp.reserved == 0);
     CHECK(dcr.neighbourhood == AZULEJO_NEIGHBOURHOOD_DELAUNAY && dcr.max_iterations > 0 && dcr.progress == NULL);
     CHECK(dcr.method == AZULEJO_METHOD_MOMENTUM && dcr.conflict_radius == 0.95 && dcr.attraction_radius == 1.05);
     CHECK(dcr.step == 0.05 && dcr.decay == 1 && dcr.neighbours == 6 && dcr.tolerance < 0 && dcr.reserved == 0);

@@ -288,9 +288,12 @@ static void surfaces(void) {
     numbers[3] = report.rho;
     check_bytes("fill only: report", numbers, sizeof numbers);
     o.iterations = 1;
+    o.projectors = AZULEJO_PROJECTORS_GLOBAL;
     o.engine = AZULEJO_ENGINE_RASTERISER;
     o.seed = 29;
     POINTS("rasteriser 1", azulejo_psp_sample(context, mesh, &o, &points, NULL));
+    o.projectors = AZULEJO_PROJECTORS_LOCAL;
+    POINTS("local 1", azulejo_psp_sample(context, mesh, &o, &points, NULL));
     o = psp_options(0.05);
     o.order = AZULEJO_ORDER_PROGRESSIVE;
     o.seed = 43;

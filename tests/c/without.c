@@ -9,7 +9,7 @@ static void is_refused(azulejo_context *context, const azulejo_mesh *mesh) {
     azulejo_mesh *copy = NULL;
     char scene[64];
     azulejo_psp_options_init(&options, sizeof options);
-    CHECK(options.engine == AZULEJO_ENGINE_RASTERISER);
+    CHECK(options.engine == AZULEJO_ENGINE_AUTO);
     options.radius = 0.1;
     options.iterations = 1;
     options.engine = AZULEJO_ENGINE_EMBREE;

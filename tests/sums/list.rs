@@ -18,6 +18,11 @@ impl List {
         self.lines.push(format!("{digits}  {name} ({} bytes)", bytes.len()));
     }
 
+    /// Adds another list.
+    pub fn append(&mut self, mut other: Self) {
+        self.lines.append(&mut other.lines);
+    }
+
     /// Adds that of points of the plane.
     pub fn points(&mut self, name: &str, points: &[[f32; 2]]) {
         self.bytes(name, &little_endian(points.as_flattened(), f32::to_le_bytes));

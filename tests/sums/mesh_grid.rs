@@ -7,7 +7,7 @@ use azulejo::analysis::differential::surface_differences;
 use azulejo::dcr::surface::{self, relax, triangulate};
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
-use azulejo::psp::{self, ClassOptions, Engine, Options, ProjectionOptions, Report};
+use azulejo::psp::{self, ClassOptions, Engine, Options, ProjectionOptions, Projectors, Report};
 use azulejo::{Classes, Context, Given, Order, Points, Result};
 
 use super::list::{List, little_endian};
@@ -117,7 +117,11 @@ fn projected(
         (", given alike", Given::at(positions)),
     ] {
         for (name, iterations, maximal) in [("projected", 2, false), ("projected and filled", 1, true)] {
-            let options = ProjectionOptions::new(size.coarse).seed(83).given(given).engine(Engine::Rasteriser);
+            let options = ProjectionOptions::new(size.coarse)
+                .seed(83)
+                .given(given)
+                .projectors(Projectors::Global)
+                .engine(Engine::Rasteriser);
             let set = psp::project(context, mesh, &options, iterations, maximal, None)?;
             add(list, &format!("{place}, {name}{around}"), set);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use azulejo::dcr::surface::{Options as RelaxOptions, relax, triangulate};
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density, Radius, Scale, Texture};
-use azulejo::psp::{self, ClassOptions, Engine, Options, Priority, ProjectionOptions};
+use azulejo::psp::{self, ClassOptions, Engine, Options, Priority, ProjectionOptions, Projectors};
 use azulejo::{Classes, Context, Given, Order, Points, Result};
 
 use super::list::{List, little_endian};
@@ -34,9 +34,9 @@ pub fn sums(context: &Context, list: &mut List) -> Result<Surface> {
     Ok(Surface { closed, maximal, open, few })
 }
 
-/// The options of a set, with an engine that is not left to a default.
+/// The options of a set, with projectors and an engine that are not left to defaults.
 fn options(radius: f64, seed: u64) -> ProjectionOptions<'static> {
-    ProjectionOptions::new(radius).seed(seed).engine(Engine::Rasteriser)
+    ProjectionOptions::new(radius).seed(seed).projectors(Projectors::Global).engine(Engine::Rasteriser)
 }
 
 /// Gives [`Surface::maximal`].
@@ -56,14 +56,52 @@ fn uniform(context: &Context, closed: &Arc<Mesh>, open: &Arc<Mesh>, list: &mut L
     let mask = (0..open.triangles().len()).map(|i| i % 7 != 0).collect();
     let masked = Arc::new(Mesh::clone(open).with_mask(mask)?);
     project("masked", &masked, options(0.03, 33), 1, true)?;
-    project("soup", &Arc::new(meshes::soup()?), options(0.05, 34), 1, true)?;
+    let soup = Arc::new(meshes::soup()?);
+    project("soup", &soup, options(0.05, 34), 1, true)?;
     let (positions, clearances) = obstacles(&maximal);
     let around = Given::with_clearances(&positions, &clearances);
     project("given", closed, options(0.02, 38).given(around), 0, true)?;
     project("given, rasteriser 1", closed, options(0.03, 39).given(around), 1, true)?;
     project("given, of the same radius", closed, options(0.02, 40).given(Given::at(&positions)), 0, true)?;
     project("cosine", open, options(0.05, 41).given(around).cosine(0.3), 0, true)?;
+    // The lines of all engines are the same.
+    let of_engine = |engine| -> Result<List> {
+        let mut list = List::default();
+        let meshes = [closed, open, &masked, &soup];
+        local_projectors(context, meshes, options(0.02, 29).projectors(Projectors::Local).engine(engine), &mut list)?;
+        Ok(list)
+    };
+    let lines = of_engine(Engine::Rasteriser)?;
+    for &engine in Engine::AVAILABLE {
+        assert_eq!(of_engine(engine)?.to_string(), lines.to_string(), "{engine:?}");
+    }
+    list.append(lines);
     Ok(maximal)
+}
+
+/// Sets by local projectors on a closed, an open and a masked mesh and on a soup.
+fn local_projectors(
+    context: &Context,
+    [closed, open, masked, soup]: [&Arc<Mesh>; 4],
+    options: ProjectionOptions,
+    list: &mut List,
+) -> Result<()> {
+    let (positions, clearances) = obstacles(&psp::project(context, closed, &options, 1, false, None)?.0);
+    let around = options.given(Given::with_clearances(&positions, &clearances));
+    for (name, mesh, options, iterations, maximal) in [
+        ("local 1, not maximal", closed, options, 1, false),
+        ("local 1", closed, options, 1, true),
+        ("local 3, projector", open, options.priority(Priority::Projector), 3, true),
+        ("local, masked", masked, options, 1, true),
+        ("local, soup", soup, options, 2, false),
+        ("local, given", closed, around, 1, true),
+    ] {
+        let (samples, report) = psp::project(context, mesh, &options, iterations, maximal, None)?;
+        list.samples(name, &samples);
+        let counts = [report.samples, report.hits, report.restart_conflicts].map(|count| count as f64);
+        list.numbers(&format!("{name}: report"), &counts);
+    }
+    Ok(())
 }
 
 /// Some samples of a set, with clearances over four orders.

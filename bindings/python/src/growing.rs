@@ -14,14 +14,14 @@ use crate::error::raised;
 use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::psp::{PspReport, priority};
+use crate::psp::{PspReport, priority, projectors};
 use crate::taken;
 use crate::watch::Watch;
 
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
 /// change it; another one, from another thread or from progress, raises RuntimeError.
 ///
-/// mesh, radius, seed, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
+/// mesh, radius, seed, projectors, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Psp {
     /// Of the mesh.
@@ -99,13 +99,15 @@ pub(crate) fn locked<T>(error: &TryLockError<T>) -> PyErr {
 impl Psp {
     #[new]
     #[pyo3(signature = (
-        mesh, radius, *, seed=0, priority="squareness", given_positions=None, given_clearances=None, cosine=None
+        mesh, radius, *, seed=0, projectors="local", priority="squareness", given_positions=None,
+        given_clearances=None, cosine=None
     ))]
     fn new(
         py: Python<'_>,
         #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
         #[pyo3(from_py_with = real::radius)] radius: f64,
         #[pyo3(from_py_with = whole::seed)] seed: i128,
+        projectors: &str,
         priority: &str,
         given_positions: Option<&Bound<'_, PyAny>>,
         given_clearances: Option<&Bound<'_, PyAny>>,
@@ -115,6 +117,7 @@ impl Psp {
         let given = GivenArrays::read(given_positions, given_clearances, origin)?;
         let request = psp::ProjectionOptions::new(radius)
             .seed(natural("seed", seed)?)
+            .projectors(self::projectors(projectors)?)
             .priority(self::priority(priority)?)
             .given(given.samples()?)
             .cosine(cosine.unwrap_or(-1.0));
@@ -122,10 +125,10 @@ impl Psp {
         Ok(Self { origin, state: RwLock::new(State::Growing(set)) })
     }
 
-    /// Adds samples by iterations of projection, each along three orthogonal directions of a random frame. Two calls add
+    /// Adds samples by iterations of projection, each with other projectors. Two calls add
     /// what one with the sum of their iterations adds. Refused with a cosine above -1.
     ///
-    /// None are made where the box of the mesh is out of all proportion to its surface.
+    /// None are made by global projectors where the box of the mesh is out of all proportion to its surface.
     /// threads, progress: as in psp_sample. After Cancelled the set holds what was finished, and can still grow.
     ///
     /// Returns a PspReport of this call.

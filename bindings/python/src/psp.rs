@@ -2,7 +2,7 @@
 
 use azulejo_core::Order;
 use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
-use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority};
+use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority, Projectors};
 use pyo3::prelude::*;
 
 use crate::argument::{
@@ -72,6 +72,8 @@ impl From<psp::Report> for PspReport {
 /// iterations: of projection before the set is filled; default: none, or 1 for sets that are not maximal.
 /// maximal: whether to fill what projection leaves.
 /// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
+/// projectors: which project the patterns of an iteration: one for each part of the mesh that faces about one direction
+///     ("local"), or three for the whole mesh ("global").
 /// priority: which of two candidates of an iteration is kept, that of the projector which it faces more squarely
 ///     ("squareness"), or of the earlier one ("projector").
 /// given_positions: float32, shape (m, 3): samples that stay and are not returned.
@@ -84,7 +86,8 @@ impl From<psp::Report> for PspReport {
 #[pyfunction]
 #[pyo3(signature = (
     mesh, radius=0.0, *, count=0, order="any", quotient=None, iterations=None, maximal=true, seed=0,
-    priority="squareness", given_positions=None, given_clearances=None, cosine=None, threads=0, progress=None
+    projectors="local", priority="squareness", given_positions=None, given_clearances=None, cosine=None, threads=0,
+    progress=None
 ))]
 pub(crate) fn psp_sample(
     py: Python<'_>,
@@ -96,6 +99,7 @@ pub(crate) fn psp_sample(
     #[pyo3(from_py_with = maybe_whole::iterations)] iterations: Option<i128>,
     #[pyo3(from_py_with = truth::maximal)] maximal: bool,
     #[pyo3(from_py_with = whole::seed)] seed: i128,
+    projectors: &str,
     priority: &str,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
@@ -115,12 +119,17 @@ pub(crate) fn psp_sample(
         .iterations(iterations)
         .maximal(maximal)
         .seed(natural("seed", seed)?)
+        .projectors(self::projectors(projectors)?)
         .priority(self::priority(priority)?)
         .given(given.samples()?)
         .cosine(cosine.unwrap_or(-1.0));
     let (samples, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| request.sample(context, &mesh.shared, progress))?;
     Points::surface(py, samples, mesh.shared.origin())?.with_report(py, PspReport::from(report))
+}
+
+pub(crate) fn projectors(name: &str) -> PyResult<Projectors> {
+    choice("projectors", name, &[("local", Projectors::Local), ("global", Projectors::Global)])
 }
 
 pub(crate) fn priority(name: &str) -> PyResult<Priority> {

@@ -231,6 +231,7 @@ XY = np.full((3, 2), 0.5, np.float32)
         (lambda: azulejo.Mesh(np.eye(3), [[0, 1, 2]], normal_indices=[[0, 1, 2]]), ValueError, "normal_indices"),
         (lambda: azulejo.psp_sample(None, 0.1), TypeError, "mesh"),
         (lambda: azulejo.psp_sample(MESH, 0.1, priority="x"), ValueError, "priority"),
+        (lambda: azulejo.psp_sample(MESH, 0.1, projectors="x"), ValueError, "projectors"),
         (lambda: azulejo.psp_sample(MESH, 0.1, cosine=2), ValueError, "cosine"),
         (lambda: azulejo.psp_adaptive_sample(MESH, [0.1]), ValueError, "^vertex_radii: 1 "),
         (lambda: azulejo.psp_adaptive_with_density(MESH, [0.1], count=9), ValueError, "^density: 1 "),

@@ -45,7 +45,7 @@ const OF_ONE_RADIUS: [&str; 2] = ["radius_from", "density_from"];
 const OF_ONE_CLASS: [&str; 3] = ["radius", "count", "radius_from"];
 
 /// The arguments that sets of several classes refuse.
-const NOT_OF_CLASSES: [&str; 5] = ["density_from", "iterations", "no_fill", "priority", "engine"];
+const NOT_OF_CLASSES: [&str; 6] = ["density_from", "iterations", "no_fill", "projectors", "priority", "engine"];
 
 #[derive(Args)]
 pub struct Surface {
@@ -88,7 +88,7 @@ pub struct Surface {
     cosine: f64,
     #[command(flatten)]
     common: Common,
-    /// The number of projections of patterns, in 3 directions each, before gaps are filled [default: 0, or 1 with
+    /// The number of projections of patterns onto the whole mesh before gaps are filled [default: 0, or 1 with
     /// --no-fill].
     #[arg(long, value_name = "N", conflicts_with_all = OF_ONE_RADIUS)]
     iterations: Option<u32>,
@@ -106,13 +106,15 @@ pub struct Surface {
     /// The normals of the samples.
     #[arg(long, value_enum, default_value = "geometric")]
     normals: Normals,
+    /// The projectors of an iteration.
+    #[arg(long, value_enum, default_value = "local", conflicts_with_all = OF_ONE_RADIUS)]
+    projectors: Projectors,
     /// The candidate that is kept of two that conflict.
     #[arg(long, value_enum, default_value = "squareness", conflicts_with_all = OF_ONE_RADIUS)]
     priority: Priority,
-    /// The engine that finds the points of the mesh to which patterns are projected [default: embree, or the rasteriser
-    /// in a build without it].
-    #[arg(long, value_enum, conflicts_with_all = OF_ONE_RADIUS)]
-    engine: Option<Engine>,
+    /// The engine that finds the points of the mesh to which patterns are projected.
+    #[arg(long, value_enum, default_value = "auto", conflicts_with_all = OF_ONE_RADIUS)]
+    engine: Engine,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -133,6 +135,14 @@ impl From<Sequence> for Order {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
+enum Projectors {
+    /// One for each part of the mesh that faces about one direction.
+    Local,
+    /// Three orthogonal ones for the whole mesh, as in the thesis.
+    Global,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
 enum Priority {
     /// Candidates that their projector faces more squarely. This is faster.
     Squareness,
@@ -142,10 +152,21 @@ enum Priority {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Engine {
+    /// The rasteriser for local projectors, Embree for global ones where a build has it.
+    Auto,
     /// Ray packets.
     Embree,
     /// Triangles drawn over the patterns.
     Rasteriser,
+}
+
+impl From<Projectors> for psp::Projectors {
+    fn from(projectors: Projectors) -> Self {
+        match projectors {
+            Projectors::Local => Self::Local,
+            Projectors::Global => Self::Global,
+        }
+    }
 }
 
 impl From<Priority> for psp::Priority {
@@ -160,6 +181,7 @@ impl From<Priority> for psp::Priority {
 impl From<Engine> for psp::Engine {
     fn from(engine: Engine) -> Self {
         match engine {
+            Engine::Auto => Self::Auto,
             Engine::Embree => Self::Embree,
             Engine::Rasteriser => Self::Rasteriser,
         }
@@ -250,8 +272,9 @@ impl Surface {
             .iterations(self.iterations)
             .maximal(!self.no_fill)
             .seed(self.common.seed)
+            .projectors(self.projectors.into())
             .priority(self.priority.into())
-            .engine(self.engine.map_or_else(psp::Engine::default, Into::into))
+            .engine(self.engine.into())
             .given(given)
             .cosine(self.cosine);
         let mesh = Arc::new(mesh);

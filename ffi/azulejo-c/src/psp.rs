@@ -4,13 +4,12 @@ use std::ffi::c_void;
 use std::sync::{RwLock, RwLockWriteGuard, TryLockError};
 
 use azulejo_core::psp::{
-    ClassOptions, DEFAULT_QUOTIENT, EditableSet, Engine, FlatOptions, Priority, ProjectionOptions, Psp, RegionOptions,
-    Report,
+    ClassOptions, DEFAULT_QUOTIENT, EditableSet, Engine, FlatOptions, Priority, ProjectionOptions, Projectors, Psp,
+    RegionOptions, Report,
 };
-use azulejo_core::trace::HAS_EMBREE;
 use azulejo_core::{Context, Given, Order, Points, Progress};
 
-use crate::boundary::{self, Out, check_unused, flag};
+use crate::boundary::{self, Out, check_reserved, check_unused, flag};
 use crate::context::azulejo_context;
 use crate::given::given;
 use crate::growing::{self, Growing, Output, growing};
@@ -83,12 +82,21 @@ pub const AZULEJO_PRIORITY_SQUARENESS: u32 = 0;
 /// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2).
 pub const AZULEJO_PRIORITY_PROJECTOR: u32 = 1;
 
-/// Ray packets of Embree find where patterns meet the mesh: the default.
+/// Each iteration has a projector for every part of the mesh in a cube of 48 radii that faces about
+/// one direction: the default.
+pub const AZULEJO_PROJECTORS_LOCAL: u32 = 0;
+/// Each iteration has three orthogonal projectors for the whole mesh, as in the thesis (section
+/// 3.3.1).
+pub const AZULEJO_PROJECTORS_GLOBAL: u32 = 1;
+
+/// Ray packets of Embree find where patterns meet the mesh.
 pub const AZULEJO_ENGINE_EMBREE: u32 = 0;
-/// Triangles are rasterised over the patterns in exact integer arithmetic (thesis section 3.4.3):
-/// the result does not depend on the machine or on Embree. The hits are those of Embree but for
-/// rounding by up to 2e-7 of the mesh's diagonal.
+/// Triangles are rasterised over the patterns (thesis section 3.4.3). With local projectors the
+/// samples are those of Embree, to the bit. With global ones the hits are those of Embree but for
+/// rounding by up to 2e-7 of the mesh's diagonal, and do not depend on the machine.
 pub const AZULEJO_ENGINE_RASTERISER: u32 = 1;
+/// The default: the rasteriser for local projectors, and for global ones Embree where there is one.
+pub const AZULEJO_ENGINE_AUTO: u32 = 2;
 
 /// The `iterations` of azulejo_psp_options that stand for a rule.
 pub const AZULEJO_ITERATIONS_DEFAULT: u32 = 0xffff_ffff;
@@ -99,7 +107,7 @@ pub const AZULEJO_ITERATIONS_DEFAULT: u32 = 0xffff_ffff;
 pub struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// The number of projections of patterns by azulejo_psp_sample, in 3 directions each, before it
+    /// The number of projections of patterns onto the whole mesh by azulejo_psp_sample, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 0, with which sets are made sooner
     /// and prefer no direction, or 1 if `maximal` is 0; a `maximal` of 0 with 0 iterations is
     /// refused. azulejo_psp_create refuses any value but the default.
@@ -114,7 +122,7 @@ pub struct azulejo_psp_options {
     pub maximal: u32,
     /// An AZULEJO_PRIORITY_ constant; default squareness.
     pub priority: u32,
-    /// An AZULEJO_ENGINE_ constant; default Embree, without which it is the rasteriser.
+    /// An AZULEJO_ENGINE_ constant; default auto.
     pub engine: u32,
     /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
     /// well spread, and azulejo_points_ranks says how well. `iterations` above 0 and a `maximal` of
@@ -148,6 +156,10 @@ pub struct azulejo_psp_options {
     /// with the same normal see each other. Given samples act on all sides. Above -1 iterations are
     /// refused, as projection does not tell sides apart.
     pub cosine: f64,
+    /// An AZULEJO_PROJECTORS_ constant; default local.
+    pub projectors: u32,
+    /// Must be 0.
+    pub reserved: u32,
 }
 
 growing!(azulejo_psp_options requires radius {
@@ -156,7 +168,7 @@ growing!(azulejo_psp_options requires radius {
     seed: 0,
     maximal: 1,
     priority: AZULEJO_PRIORITY_SQUARENESS,
-    engine: if HAS_EMBREE { AZULEJO_ENGINE_EMBREE } else { AZULEJO_ENGINE_RASTERISER },
+    engine: AZULEJO_ENGINE_AUTO,
     order: AZULEJO_ORDER_ANY,
     progress: None,
     progress_user: std::ptr::null_mut(),
@@ -166,6 +178,8 @@ growing!(azulejo_psp_options requires radius {
     given_clearances: std::ptr::null(),
     given_count: 0,
     cosine: -1.0,
+    projectors: AZULEJO_PROJECTORS_LOCAL,
+    reserved: 0,
 });
 
 impl azulejo_psp_options {
@@ -176,6 +190,7 @@ impl azulejo_psp_options {
     unsafe fn request<'a>(&self) -> Result<FlatOptions<'a>, Failure> {
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
+        check_reserved(self.reserved)?;
         let (order, quotient) = self.ordered()?;
         Ok(FlatOptions::new(self.radius)
             .count(self.count)
@@ -184,6 +199,7 @@ impl azulejo_psp_options {
             .iterations(Some(self.iterations).filter(|&count| count != AZULEJO_ITERATIONS_DEFAULT))
             .maximal(flag("maximal", self.maximal)?)
             .seed(self.seed)
+            .projectors(projectors(self.projectors)?)
             .priority(priority(self.priority)?)
             .engine(engine(self.engine)?)
             .given(given)
@@ -205,6 +221,7 @@ impl azulejo_psp_options {
     /// As [`given`] for the given samples.
     unsafe fn request_of_handle<'a>(&self) -> Result<ProjectionOptions<'a>, Failure> {
         let (default, call) = (Self::DEFAULT, "in azulejo_psp_create");
+        check_reserved(self.reserved)?;
         check_unused("iterations", self.iterations, default.iterations, call)?;
         check_unused("maximal", self.maximal, default.maximal, call)?;
         check_unused("count", self.count, default.count, call)?;
@@ -214,6 +231,7 @@ impl azulejo_psp_options {
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         Ok(ProjectionOptions::new(self.radius)
             .seed(self.seed)
+            .projectors(projectors(self.projectors)?)
             .priority(priority(self.priority)?)
             .engine(engine(self.engine)?)
             .given(given)
@@ -241,6 +259,8 @@ impl azulejo_psp_options {
             check_unused("iterations", self.iterations, default.iterations, call)?;
         }
         check_unused("maximal", self.maximal, default.maximal, call)?;
+        check_reserved(self.reserved)?;
+        check_unused("projectors", self.projectors, default.projectors, call)?;
         check_unused("priority", self.priority, default.priority, call)?;
         check_unused("engine", self.engine, default.engine, call)
     }
@@ -258,6 +278,14 @@ impl azulejo_psp_options {
     }
 }
 
+fn projectors(value: u32) -> Result<Projectors, Failure> {
+    match value {
+        AZULEJO_PROJECTORS_LOCAL => Ok(Projectors::Local),
+        AZULEJO_PROJECTORS_GLOBAL => Ok(Projectors::Global),
+        other => Err(Failure::invalid("projectors", format!("{other} is no AZULEJO_PROJECTORS_ constant"))),
+    }
+}
+
 fn priority(value: u32) -> Result<Priority, Failure> {
     match value {
         AZULEJO_PRIORITY_SQUARENESS => Ok(Priority::Squareness),
@@ -270,6 +298,7 @@ fn engine(value: u32) -> Result<Engine, Failure> {
     match value {
         AZULEJO_ENGINE_EMBREE => Ok(Engine::Embree),
         AZULEJO_ENGINE_RASTERISER => Ok(Engine::Rasteriser),
+        AZULEJO_ENGINE_AUTO => Ok(Engine::Auto),
         other => Err(Failure::invalid("engine", format!("{other} is no AZULEJO_ENGINE_ constant"))),
     }
 }

@@ -24,7 +24,7 @@ use crate::status::{Failure, azulejo_status};
 /// ranks count as the diagonal of the mesh's box.
 ///
 /// options: `radius` must be 0, as the classes have radii. `count`, `iterations`, `maximal`,
-/// `priority` and `engine` must have their defaults.
+/// `projectors`, `priority` and `engine` must have their defaults.
 ///
 /// classes: the radii, and where each class may stand.
 ///

@@ -182,8 +182,8 @@ pub unsafe extern "C" fn azulejo_psp_refill(
 /// most 6 radii outside it on a triangle that it touches. For many edits of one set see
 /// azulejo_psp_erase.
 ///
-/// options: `iterations`, `maximal`, `count`, `order`, `priority` and `engine` must have their
-/// defaults.
+/// options: `iterations`, `maximal`, `count`, `order`, `projectors`, `priority` and `engine` must
+/// have their defaults.
 ///
 /// out: the samples with normals, triangles and barycentrics.
 ///

@@ -17,18 +17,18 @@ use crate::psp::fill::extent::Extent;
 use crate::psp::fill::measures::{Ball, CLUSTER, Measures, Triangles};
 use crate::psp::fill::rounds::{PATCH, Point};
 use crate::psp::fragment::{Fragment, slice};
-use crate::psp::set::{Cube, Numbers, SIDE, SampleSet};
+use crate::psp::set::{Cube, Numbers, SampleSet};
 use crate::region::Region;
 use crate::rng::Rng;
 
 /// Clusters per task.
 const CHUNK: usize = 1 << 12;
 
-/// The length in radii above which triangles are cut. A sample then lies no farther than this from its cube.
-const LONGEST: f64 = SIDE as f64 / 4.0;
+/// The length in sides of a cube above which triangles are cut. A sample then lies no farther than this from its cube.
+const LONGEST: f64 = 0.25;
 
-/// The size of balls, in radii, up to which most lie in one cube.
-const LARGEST_BALL: f64 = SIDE as f64 / 8.0;
+/// The size of balls, in sides of a cube, up to which most lie in one cube.
+const LARGEST_BALL: f64 = 0.125;
 
 /// The surface by cubes.
 pub struct Blocks {
@@ -66,7 +66,7 @@ impl Blocks {
         samples: &SampleSet,
         region: Option<&Region>,
     ) -> Result<Self> {
-        let balls = measures.balls_up_to(&job.part(0.0, 0.2), mesh, LARGEST_BALL * samples.radius())?;
+        let balls = measures.balls_up_to(&job.part(0.0, 0.2), mesh, LARGEST_BALL * samples.side())?;
         let chunks = chunks_of(measures.triangles().clusters(), CHUNK);
         let chunk = |chunk: usize| Chunk::new(mesh, measures, balls, chunks.range(chunk), samples, region);
         let chunks = job.part(0.2, 1.0).map(chunks.len(), chunk)?;
@@ -149,7 +149,7 @@ impl Chunk {
             extents[number].join(extent);
             number as u32
         };
-        let (triangles, longest) = (measures.triangles(), LONGEST * samples.radius());
+        let (triangles, longest) = (measures.triangles(), LONGEST * samples.side());
         let cuts = measures.longest() > longest;
         let in_one_cube = |ball: &Ball| {
             let ends = ball.ends();

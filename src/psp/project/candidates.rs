@@ -8,6 +8,8 @@
 //! eliminate others. Among the candidates those come first that their projector faces most squarely: there its pattern,
 //! which is maximal in the plane, is stretched least. (Or, by option, those of the lower projector, as in the thesis.)
 
+use std::ops::AddAssign;
+
 use crate::error::Result;
 use crate::index::Buckets;
 use crate::job::Job;
@@ -20,6 +22,11 @@ use crate::trace::Hit;
 
 /// The resolution of the squareness of a hit.
 const RANKS: f64 = 1e6;
+
+/// The rank of a hit by the cosine between the normal and the direction that it is projected along.
+pub fn rank(cosine: f64) -> u32 {
+    ((1.0 - cosine.abs()) * RANKS) as u32
+}
 
 /// The counts of rays and hits of some projectors.
 #[derive(Clone, Copy, Default)]
@@ -40,6 +47,14 @@ pub struct Collector<'a> {
     pub projectors: &'a [Projector; 3],
 }
 
+impl AddAssign for Projected {
+    fn add_assign(&mut self, part: Self) {
+        self.rays += part.rays;
+        self.hits += part.hits;
+        self.restart_conflicts += part.restart_conflicts;
+    }
+}
+
 impl Collector<'_> {
     /// Runs tasks that pass on their results: the number of a projector, the number of its rays, and their hits in the
     /// order of [`Scene::all_hits`](crate::trace::Scene::all_hits), all those of a ray at once.
@@ -58,11 +73,8 @@ impl Collector<'_> {
             });
             projected
         })?;
-        let all = parts.iter().fold(Projected::default(), |all, part| Projected {
-            rays: all.rays + part.rays,
-            hits: all.hits + part.hits,
-            restart_conflicts: all.restart_conflicts + part.restart_conflicts,
-        });
+        let mut all = Projected::default();
+        parts.into_iter().for_each(|part| all += part);
         Ok((candidates, all))
     }
 
@@ -79,9 +91,9 @@ impl Collector<'_> {
                 } else {
                     kept.push(sample.position);
                 }
-                let squareness = || exact(self.mesh.normal(hit.triangle)).dot(direction).abs();
+                let cosine = || exact(self.mesh.normal(hit.triangle)).dot(direction);
                 let rank = match self.priority {
-                    Priority::Squareness => ((1.0 - squareness()) * RANKS) as u32,
+                    Priority::Squareness => rank(cosine()),
                     Priority::Projector => projector as u32,
                 };
                 add(self.samples.cube(sample.position.map(f64::from)), Candidate { sample, rank });

@@ -9,6 +9,9 @@ use crate::rng::{Draw, Rng};
 /// The cosine above which two axes of successive iterations are too near each other: 20 degrees.
 const NEAREST_AXES: f64 = 0.94;
 
+/// Three orthogonal directions.
+pub type Frame = DMat3;
+
 /// A plane through the centre of the mesh that carries the pattern along its normal.
 pub struct Projector {
     pub right: DVec3,

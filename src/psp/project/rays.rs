@@ -35,12 +35,13 @@ pub struct Rays {
 }
 
 /// A mesh in trace space. It is kept with the mesh.
-struct TraceSpace {
+pub struct TraceSpace {
     /// The triangles that are to be sampled, and no others.
     scene: Scene,
     /// The numbers in the mesh of the triangles of the scene, unless these are all.
     numbers: Option<Vec<u32>>,
-    /// The factor from lengths of the mesh to those in trace space.
+    /// The centre of the mesh's box, and the factor from lengths of the mesh to those in trace space.
+    centre: DVec3,
     scale: f64,
     /// Half the size of the mesh's box (trace space), widened.
     half_box: DVec3,
@@ -58,8 +59,7 @@ struct Repetitions {
 impl Rays {
     /// Builds the scene, if the mesh does not have one yet, and the pattern.
     pub fn new(job: &Job, mesh: &Mesh, radius: f64, seed: u64) -> Result<Self> {
-        let building = job.part(0.0, 0.5);
-        let space = mesh.kept(|| building.report(0.0), || TraceSpace::new(&building, mesh))?;
+        let space = TraceSpace::of(&job.part(0.0, 0.5), mesh)?;
         let radius = radius * space.scale;
         Ok(Self { space, pattern: RayPattern::new(&job.part(0.5, 1.0), 1.0 / radius, seed)?, radius })
     }
@@ -124,6 +124,17 @@ impl Rays {
 }
 
 impl TraceSpace {
+    /// The mesh in trace space, built if it was not yet.
+    pub fn of(job: &Job, mesh: &Mesh) -> Result<Arc<Self>> {
+        mesh.kept(|| job.report(0.0), || Self::new(job, mesh))
+    }
+
+    /// A ray from a point of the mesh's space.
+    pub fn ray(&self, start: DVec3, direction: DVec3) -> Ray {
+        let origin = ((start - self.centre) * self.scale).as_vec3().to_array();
+        Ray { origin, direction: direction.as_vec3().to_array() }
+    }
+
     /// Builds the scene.
     fn new(job: &Job, mesh: &Mesh) -> Result<Self> {
         let (low, high) = mesh.bounds();
@@ -143,11 +154,11 @@ impl TraceSpace {
                 build(&triangles)?
             }
         };
-        Ok(Self { scene, numbers, scale, half_box: 0.5 * scale * (high - low) + BOX_MARGIN })
+        Ok(Self { scene, numbers, centre, scale, half_box: 0.5 * scale * (high - low) + BOX_MARGIN })
     }
 
     /// Appends every hit on every ray, with the numbers of the mesh's triangles.
-    fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
+    pub fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
         let first = hits.len();
         self.scene.all_hits(rays, hits);
         if let Some(numbers) = &self.numbers {

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use crate::job::Context;
 use crate::mesh::{Mesh, exact};
 use crate::psp::options::{Engine, Priority, ProjectionOptions};
-use crate::psp::project::Projection;
 use crate::psp::project::candidates::Collector;
+use crate::psp::project::global::GlobalProjection;
 use crate::psp::project::projector::{Projector, frame};
 use crate::psp::set::{Sample, SampleSet};
 
@@ -32,7 +32,7 @@ fn hits(
     let collector = Collector { mesh, samples, priority: Priority::Projector, projectors };
     let found = Context::new(threads)
         .unwrap()
-        .run(None, |job| Projection::new(job, mesh, &options)?.project(job, projectors, &collector));
+        .run(None, |job| GlobalProjection::new(job, mesh, &options)?.project(job, projectors, &collector));
     let (candidates, counts) = found.unwrap();
     let mut all: HashMap<_, Vec<_>> = HashMap::new();
     for candidate in (0..candidates.len()).flat_map(|group| candidates.items(group)) {

@@ -15,7 +15,7 @@ use crate::psp::fill::space::key;
 use crate::psp::fill::table::Table;
 
 /// The side of a cube in radii: large compared with the margin of samples around it that a task reads too, small enough
-/// for many cubes and for the `u16` that counts the points of [`Surroundings`](super::Surroundings).
+/// for many cubes.
 pub const SIDE: u32 = 24;
 
 /// A cube, by its number on each axis.

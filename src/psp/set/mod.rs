@@ -32,10 +32,15 @@ impl Sample {
         Self::on(&mesh.corners(triangle), triangle, barycentrics)
     }
 
+    /// A sample of which only the position is known.
+    pub fn at(position: [f32; 3]) -> Self {
+        Self { position, triangle: 0, barycentrics: [0.0; 2], rank: f32::INFINITY, class: 0 }
+    }
+
     /// The sample, on a triangle whose corners are known to the caller.
     pub fn on(corners: &[[f32; 3]; 3], triangle: u32, barycentrics: [f32; 2]) -> Self {
         let position = exact_point(corners, barycentrics.map(f64::from)).as_vec3().to_array();
-        Self { position, triangle, barycentrics, rank: f32::INFINITY, class: 0 }
+        Self { triangle, barycentrics, ..Self::at(position) }
     }
 }
 
@@ -43,9 +48,10 @@ impl Sample {
 /// place: the samples keep the radius in whatever order a caller evaluates their distances.
 pub const RADIUS_SLACK: f64 = 1e-14;
 
-/// The cubes of a set with one radius: [`SIDE`] radii wide.
+/// The cubes of a set with one radius: [`SIDE`] radii wide, or some times that.
 pub struct EvenCubes {
     radius: f64,
+    side: f64,
     origin: [f64; 3],
 }
 
@@ -53,7 +59,7 @@ impl EvenCubes {
     /// The cube that a point is in.
     #[inline]
     fn cube(&self, point: [f64; 3]) -> Cube {
-        let per_side = 1.0 / (f64::from(SIDE) * self.radius);
+        let per_side = 1.0 / self.side;
         // The origin is the lowest point of the surface, up to rounding, which truncation ignores.
         Cube([0, 1, 2].map(|axis| ((point[axis] - self.origin[axis]) * per_side) as i32))
     }
@@ -78,8 +84,17 @@ impl SampleSet {
 
     /// A set of samples that do not conflict, in their order.
     pub fn with(mesh: &Mesh, radius: f64, samples: Vec<Sample>) -> Self {
-        let origin = mesh.bounds().0.map(f64::from);
-        Self::in_order(EvenCubes { radius: radius * (1.0 + RADIUS_SLACK), origin }, samples)
+        let (radius, origin) = (radius * (1.0 + RADIUS_SLACK), mesh.bounds().0.map(f64::from));
+        Self::in_order(EvenCubes { radius, side: f64::from(SIDE) * radius, origin }, samples)
+    }
+
+    /// The set's radius and samples after some others, by cubes whose sides are `times` those of the set's, moved by
+    /// shares of them.
+    pub fn widened(&self, times: f64, shift: [f64; 3], others: impl Iterator<Item = Sample>) -> Self {
+        let &EvenCubes { radius, side, origin } = &self.cubes;
+        let side = times * side;
+        let origin = [0, 1, 2].map(|axis| origin[axis] - shift[axis] * side);
+        Self::in_order(EvenCubes { radius, side, origin }, others.chain(self.all().iter().copied()).collect())
     }
 
     /// A set of samples that do not conflict, which are put in the order of their cubes.
@@ -103,6 +118,11 @@ impl SampleSet {
         self.cubes.radius
     }
 
+    /// The side of the cubes.
+    pub fn side(&self) -> f64 {
+        self.cubes.side
+    }
+
     /// The cube that a point is in.
     #[inline]
     pub fn cube(&self, point: [f64; 3]) -> Cube {
@@ -111,7 +131,9 @@ impl SampleSet {
 
     /// The samples in and around a cube, for a search of neighbours.
     pub fn surroundings(&self, cube: Cube) -> Surroundings {
-        let mut surroundings = Surroundings::new(cube, self.cubes.origin, self.radius());
+        let EvenCubes { radius, side, origin } = self.cubes;
+        let centre = [0, 1, 2].map(|axis| origin[axis] + (f64::from(cube.0[axis]) + 0.5) * side);
+        let mut surroundings = Surroundings::new(centre.into(), 0.5 * side, radius);
         for sample in self.around(cube) {
             if surroundings.may_hold(sample.position) {
                 surroundings.add(sample.position);

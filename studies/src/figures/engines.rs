@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use azulejo::psp::{Engine, ProjectionOptions, project};
+use azulejo::psp::{Engine, ProjectionOptions, Projectors, project};
 use azulejo::{Context, Result};
 
 use crate::args::MeshArgs;
@@ -44,7 +44,7 @@ pub fn section(context: &Context, meshes: &MeshArgs, quick: bool) -> Result<Stri
 
 fn row(context: &Context, scene: &Scene, count: f64, rounds: usize) -> Result<String> {
     let made = |engine: Engine| -> Result<usize> {
-        let options = ProjectionOptions::new(radius(&scene.mesh, count)).engine(engine);
+        let options = ProjectionOptions::new(radius(&scene.mesh, count)).projectors(Projectors::Global).engine(engine);
         Ok(project(context, &scene.mesh, &options, 1, false, None)?.0.len())
     };
     made(Engine::Embree)?;

@@ -6,7 +6,7 @@ use azulejo::analysis::coverage::surface_uncovered_fraction;
 use azulejo::analysis::differential::{Differences, surface_differences};
 use azulejo::analysis::facing::density_by_facing;
 use azulejo::mesh::Mesh;
-use azulejo::psp::{ProjectionOptions, Psp};
+use azulejo::psp::{ProjectionOptions, Projectors, Psp};
 use azulejo::{Context, MAXIMAL_DENSITY, Points, Progress, Result};
 use glam::DVec3;
 
@@ -133,7 +133,7 @@ impl Measure<'_> {
 
 /// Where the projectors of a seed's first iteration look, on whatever mesh.
 fn directions(context: &Context, mesh: &Arc<Mesh>, seed: u64) -> Result<[[f64; 3]; 3]> {
-    let mut psp = Psp::new(mesh, &ProjectionOptions::new(1.0).seed(seed))?;
+    let mut psp = Psp::new(mesh, &ProjectionOptions::new(1.0).projectors(Projectors::Global).seed(seed))?;
     psp.advance(context, 1, None)?;
     Ok(psp.directions().expect("there was an iteration"))
 }

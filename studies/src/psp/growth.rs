@@ -1,7 +1,7 @@
 //! The growth of a set with time: its density, and the area that it leaves uncovered (thesis fig. 3.8, 3.12 and 3.13).
 
 use azulejo::analysis::coverage::surface_uncovered_fraction;
-use azulejo::psp::{Priority, ProjectionOptions, Psp};
+use azulejo::psp::{Priority, ProjectionOptions, Projectors, Psp};
 use azulejo::{Context, Progress, Result};
 
 use super::Effort;
@@ -73,7 +73,10 @@ struct Measure<'a> {
 
 impl Measure<'_> {
     fn empty(&self, priority: Priority) -> Result<Psp> {
-        Psp::new(&self.scene.mesh, &ProjectionOptions::new(self.radius()).priority(priority))
+        Psp::new(
+            &self.scene.mesh,
+            &ProjectionOptions::new(self.radius()).projectors(Projectors::Global).priority(priority),
+        )
     }
 
     fn radius(&self) -> f64 {

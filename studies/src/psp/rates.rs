@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use azulejo::analysis::coverage::surface_covering_radius;
-use azulejo::psp::{Priority, ProjectionOptions, Psp, Report};
+use azulejo::psp::{Priority, ProjectionOptions, Projectors, Psp, Report};
 use azulejo::{Context, Progress, Result};
 
 use super::Effort;
@@ -48,6 +48,11 @@ impl Stages {
     }
 }
 
+/// Sets with the projectors of the thesis.
+fn global(radius: f64) -> ProjectionOptions<'static> {
+    ProjectionOptions::new(radius).projectors(Projectors::Global)
+}
+
 /// A way to make a set.
 struct Way<'a> {
     context: &'a Context,
@@ -58,8 +63,7 @@ struct Way<'a> {
 
 impl Way<'_> {
     fn make(&self, scene: &Scene) -> Result<[Report; 2]> {
-        let mut psp =
-            Psp::new(&scene.mesh, &ProjectionOptions::new(radius(&scene.mesh, self.count)).priority(self.priority))?;
+        let mut psp = Psp::new(&scene.mesh, &global(radius(&scene.mesh, self.count)).priority(self.priority))?;
         Ok([psp.advance(self.context, self.iterations, None)?, psp.fill(self.context, None)?])
     }
 
@@ -142,7 +146,7 @@ pub struct Again {
 impl Again {
     fn measure(context: &Context, scene: &Scene, count: f64) -> Result<Self> {
         let radius = radius(&scene.mesh, count);
-        let mut psp = Psp::new(&scene.mesh, &ProjectionOptions::new(radius))?;
+        let mut psp = Psp::new(&scene.mesh, &global(radius))?;
         psp.advance(context, 1, None)?;
         psp.fill(context, None)?;
         let farthest = surface_covering_radius(context, &scene.mesh, &psp.samples().positions, None)?;

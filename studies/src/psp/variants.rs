@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, Priority, ProjectionOptions};
+use azulejo::psp::{self, Priority, ProjectionOptions, Projectors};
 use azulejo::{Context, Points, Result};
 
 /// Up to about so many samples a set can be filled in one piece, also on a square: what the library expects, which is
@@ -65,7 +65,7 @@ impl Variant {
 
     pub fn sample(self, context: &Context, mesh: &Arc<Mesh>, radius: f64, seed: u64) -> Result<Points<3>> {
         let Self { priority, iterations, maximal, .. } = self;
-        let options = ProjectionOptions::new(radius).priority(priority).seed(seed);
+        let options = ProjectionOptions::new(radius).projectors(Projectors::Global).priority(priority).seed(seed);
         Ok(psp::project(context, mesh, &options, iterations, maximal, None)?.0)
     }
 }

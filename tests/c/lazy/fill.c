@@ -17,6 +17,7 @@ int main(int argc, char **argv) {
     azulejo_points_free(points);
     if (argc > 1) {
         surface.iterations = 1;
+        surface.engine = AZULEJO_ENGINE_EMBREE;
         points = UNTOUCHED;
         status = azulejo_psp_sample(context, cube, &surface, &points, NULL);
         if (status == AZULEJO_OK) {
