@@ -4,7 +4,7 @@
 //! is divided into 4 × 4 × 4 parts at once, of which a ball's cover is a mask of 64 bits; a round throws its darts before it
 //! divides; and voxels that are left at the end are searched for open lattice points in integers, so that none is left.
 
-use crate::plane::{Rect, Separation};
+use crate::plane::{Disk, Rect, Separation};
 use crate::points::MAXIMAL_DENSITY_IN_SPACE;
 use crate::rng::Rng;
 use crate::simd::{Lanes, Work};
@@ -48,6 +48,8 @@ pub struct Fill<'a> {
     pub separation: Separation,
     /// The samples that stand in the region and near it, with their images.
     pub around: &'a [Centre],
+    /// The given balls that may have points of the region.
+    pub given: &'a [Disk<3>],
     /// The displacements of the images of a new sample that matter to the block.
     pub images: &'a [[i32; 3]],
     pub rng: Rng,
@@ -58,37 +60,38 @@ impl Work for Fill<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self, lanes: L) -> Vec<Centre> {
-        self.grid.reset(&self.region, self.radius, self.separation);
+        self.grid.reset(&self.region, self.radius, self.separation, self.given);
         for &sample in self.around {
             self.grid.add(lanes, sample);
         }
-        let (levels, mut accepted) = (self.grid.levels(), Vec::new());
+        let (levels, open, mut accepted) = (self.grid.levels(), self.grid.open_cells(), Vec::new());
         match self.pass {
-            Pass::First => self.throw_first(lanes, &levels[0], &mut accepted),
-            Pass::Last => self.close(lanes, &levels, &mut accepted),
+            _ if open.is_empty() => (),
+            Pass::First => self.throw_first(lanes, &levels[0], &open, &mut accepted),
+            Pass::Last => self.close(lanes, &levels, open, &mut accepted),
         }
         accepted
     }
 }
 
 impl Fill<'_> {
-    /// Throws darts on the whole region.
+    /// Throws darts on all open cells.
     #[inline(always)]
-    fn throw_first<L: Lanes>(&mut self, lanes: L, cells: &Level, accepted: &mut Vec<Centre>) {
+    fn throw_first<L: Lanes>(&mut self, lanes: L, cells: &Level, open: &[Voxel], accepted: &mut Vec<Centre>) {
         let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
         let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
-        let (mut left, count) = ((FIRST_DARTS * expected).ceil() as u64, self.grid.cells() as u64);
+        let share = open.len() as f64 / self.grid.cells() as f64;
+        let mut left = (FIRST_DARTS * expected * share).ceil() as u64;
         while left > 0 {
-            let cell = self.rng.below(count);
-            self.throw(lanes, cells, Voxel::cell(cell as usize), accepted);
+            let cell = open[self.rng.below(open.len() as u64) as usize];
+            self.throw(lanes, cells, cell, accepted);
             left -= 1;
         }
     }
 
     /// Throws darts on open voxels and divides them, until none is open.
     #[inline(always)]
-    fn close<L: Lanes>(&mut self, lanes: L, levels: &[Level], accepted: &mut Vec<Centre>) {
-        let mut open: Vec<Voxel> = (0..self.grid.cells()).map(Voxel::cell).collect();
+    fn close<L: Lanes>(&mut self, lanes: L, levels: &[Level], mut open: Vec<Voxel>, accepted: &mut Vec<Centre>) {
         let (mut parts, mut number) = (Vec::new(), 0);
         loop {
             let level = &levels[number];
@@ -123,10 +126,10 @@ impl Fill<'_> {
     /// Puts samples on open lattice points of voxels, which are sorted by cell, until there are none.
     fn search<L: Lanes>(&mut self, lanes: L, level: &Level, open: &[Voxel], accepted: &mut Vec<Centre>) {
         for voxels in open.chunk_by(|a, b| a.cell == b.cell) {
-            let mut near = self.grid.balls_near(voxels[0].cell);
+            let (mut near, given) = (self.grid.balls_near(voxels[0].cell), self.grid.given_near(voxels[0].cell));
             for &voxel in voxels {
                 let points = self.grid.points(level, voxel);
-                while let Some(point) = open_point(&points, &near, self.separation.threshold) {
+                while let Some(point) = open_point(&points, &near, self.separation.threshold, &given) {
                     let known = self.grid.balls().len();
                     self.accept(lanes, self.grid.absolute(point), accepted);
                     near.extend(&self.grid.balls()[known..]);

@@ -11,14 +11,16 @@
 mod blocks;
 mod fill;
 mod grid;
+mod obstacles;
 mod search;
 mod set;
 mod voxels;
 
 use crate::error::{Error, Result};
+use crate::given::Given;
 use crate::job::{Context, Progress};
 use crate::memory;
-use crate::plane::Lattice;
+use crate::plane::{GivenDisks, Lattice};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius};
 use crate::setters::setters;
 use crate::simd::Level;
@@ -27,6 +29,9 @@ use crate::volume::set::Set;
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
 /// before they are put to the others, and positions.
 const BYTES_PER_SAMPLE: f64 = 27.0;
+
+/// The most bytes that a given sample takes: its ball, in its bin, and both while they are sorted.
+const BYTES_PER_GIVEN: f64 = 96.0;
 
 /// The most bytes of the grid and the voxels of a block, which each thread has.
 const BYTES_PER_THREAD: f64 = (4 << 20) as f64;
@@ -40,7 +45,7 @@ const BEYOND: f64 = 0.7;
 /// The options of a set of a cuboid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Options {
+pub struct Options<'a> {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
     /// coordinate. It may exceed the domain: one sample is the result.
     pub radius: f64,
@@ -49,16 +54,21 @@ pub struct Options {
     pub domain: Domain<3>,
     /// The same options and seed give the same samples.
     pub seed: u64,
+    /// Samples that exist already, anywhere in space; on a torus they wrap. New samples are at least the clearance of each
+    /// from it, in `f64` from the floats, and every point of the domain is within the radius of a new sample or the clearance
+    /// of a given one, up to 7 float spacings at the domain's largest coordinate. Given samples are not part of the result,
+    /// and are not compared with each other.
+    pub given: Given<'a, 3>,
 }
 
-impl Options {
-    /// This radius on the unit torus, with seed 0.
+impl Options<'_> {
+    /// This radius on the unit torus, with seed 0 and no given samples.
     pub fn new(radius: f64) -> Self {
-        Self { radius, domain: Domain::unit(Boundary::Periodic), seed: 0 }
+        Self { radius, domain: Domain::unit(Boundary::Periodic), seed: 0, given: Given::default() }
     }
 }
 
-setters!(Options { radius: f64, domain: Domain<3>, seed: u64 });
+setters!(Options<'a> { radius: f64, domain: Domain<3>, seed: u64, given: Given<'a, 3> });
 
 /// A maximal Poisson-disk set of a cuboid.
 ///
@@ -76,9 +86,10 @@ setters!(Options { radius: f64, domain: Domain<3>, seed: u64 });
 /// [`Error::InvalidArgument`] for a radius or domain out of range or floats too coarse for the radius,
 /// [`Error::TooLarge`] above 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Points<3>> {
-    let &Options { radius, domain, seed } = options;
+    let &Options { radius, domain, seed, given } = options;
     domain.check()?;
     check_radius(radius)?;
+    given.check()?;
     let expected = expected_samples(&domain, radius);
     if expected > f64::from(u32::MAX) {
         let limit = f64::from(u32::MAX);
@@ -87,9 +98,12 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     }
     let lattice = Lattice::of_any_size(&domain, radius)?;
     let threads = (context.num_threads() as f64).min(expected / SAMPLES_PER_THREAD);
-    let bytes = expected * BYTES_PER_SAMPLE + threads * BYTES_PER_THREAD;
+    let bytes =
+        expected * BYTES_PER_SAMPLE + threads * BYTES_PER_THREAD + given.positions.len() as f64 * BYTES_PER_GIVEN;
     memory::require(bytes, "radius", &format!("about {expected:.0} samples"))?;
-    context.run(progress, |job| Set::new(job, &lattice, seed, Level::widest())).map(|set| set.into_positions().into())
+    let given = GivenDisks::new(&domain, &lattice, radius, &given);
+    let set = context.run(progress, |job| Set::new(job, &lattice, &given, seed, Level::widest()))?;
+    Ok(set.into_positions().into())
 }
 
 /// The approximate number of samples; at least one.

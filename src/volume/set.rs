@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::plane::{Lattice, Rect};
+use crate::plane::{GivenDisks, Lattice, Rect};
 use crate::rng::{Draw, Rng};
 use crate::simd::{self, Level};
 use crate::volume::blocks::Blocks;
@@ -15,6 +15,7 @@ use crate::volume::search::Centre;
 /// The samples of a cuboid as lattice points, by their blocks.
 pub struct Set<'a> {
     lattice: &'a Lattice<3>,
+    given: &'a GivenDisks<3>,
     blocks: Blocks,
     samples: Vec<Vec<Centre>>,
     /// Grids that no thread uses now.
@@ -23,15 +24,15 @@ pub struct Set<'a> {
 }
 
 impl<'a> Set<'a> {
-    /// A maximal set, by instructions of some level.
+    /// A maximal set around given balls, by instructions of some level.
     ///
     /// Both passes go over all blocks. The first brings three quarters of the samples, with rivals around each block, so
     /// that the faces of blocks leave few traces (docs/design/volume.md). Rivals in the last pass would leave gaps: what a
     /// dropped sample covers would be open.
-    pub fn new(job: &Job, lattice: &'a Lattice<3>, seed: u64, level: Level) -> Result<Self> {
+    pub fn new(job: &Job, lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64, level: Level) -> Result<Self> {
         let blocks = Blocks::new(lattice, seed);
         let (count, mut done) = (blocks.leaves.len(), 0);
-        let mut set = Self { lattice, blocks, samples: vec![Vec::new(); count], grids: Mutex::default(), level };
+        let mut set = Self { lattice, given, blocks, samples: vec![Vec::new(); count], grids: Mutex::default(), level };
         let share = |done: usize| done as f64 / (Pass::ALL.len() * count) as f64;
         for pass in Pass::ALL {
             for number in 0..set.blocks.waves.len() {
@@ -65,6 +66,7 @@ impl<'a> Set<'a> {
             radius: lattice.radius,
             separation: lattice.separation,
             around: &around,
+            given: &self.given.near(&region),
             images: &blocks.images,
             rng: Rng::at(leaf.key, Draw::Volume, &[pass as u64]),
         };
@@ -109,7 +111,7 @@ mod tests {
 
     fn positions(lattice: &Lattice<3>, seed: u64, level: Level) -> Vec<Centre> {
         let context = Context::new(1).unwrap();
-        let set = context.run(None, |job| Set::new(job, lattice, seed, level)).unwrap();
+        let set = context.run(None, |job| Set::new(job, lattice, &GivenDisks::default(), seed, level)).unwrap();
         set.samples.into_iter().flatten().collect()
     }
 

@@ -61,3 +61,4 @@ mod thin;
 #[cfg(feature = "embree")]
 mod traces;
 mod volume;
+mod volume_given;
