@@ -32,7 +32,9 @@ pub enum Pass {
 
 impl Pass {
     /// The passes in their order.
-    pub const ALL: [Self; 2] = [Self::First, Self::Last];
+    pub const ALL: &[Self] = &[Self::First, Self::Last];
+    /// Those where samples cover most of the domain already.
+    pub const LAST: &[Self] = &[Self::Last];
 }
 
 /// One pass over a block. The result are the new samples in it.
@@ -59,39 +61,58 @@ impl Work for Fill<'_> {
     type Out = Vec<Centre>;
 
     #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) -> Vec<Centre> {
+    fn run<L: Lanes>(self, lanes: L) -> Vec<Centre> {
         self.grid.reset(&self.region, self.radius, self.separation, self.given);
         for &sample in self.around {
             self.grid.add(lanes, sample);
         }
-        let (levels, open, mut accepted) = (self.grid.levels(), self.grid.open_cells(), Vec::new());
-        match self.pass {
-            _ if open.is_empty() => (),
-            Pass::First => self.throw_first(lanes, &levels[0], &open, &mut accepted),
-            Pass::Last => self.close(lanes, &levels, open, &mut accepted),
-        }
-        accepted
+        // Compiled twice, so that sets without given samples pay nothing for them.
+        if self.given.is_empty() { self.fill::<L, false>(lanes) } else { self.fill::<L, true>(lanes) }
     }
 }
 
 impl Fill<'_> {
+    #[inline(always)]
+    fn fill<L: Lanes, const GIVEN: bool>(mut self, lanes: L) -> Vec<Centre> {
+        let (levels, open, mut accepted) = (self.grid.levels(), self.grid.open_cells(), Vec::new());
+        match self.pass {
+            _ if open.is_empty() => (),
+            Pass::First => self.throw_first::<L, GIVEN>(lanes, &levels[0], &open, &mut accepted),
+            Pass::Last => self.close::<L, GIVEN>(lanes, &levels, open, &mut accepted),
+        }
+        accepted
+    }
+
     /// Throws darts on all open cells.
     #[inline(always)]
-    fn throw_first<L: Lanes>(&mut self, lanes: L, cells: &Level, open: &[Voxel], accepted: &mut Vec<Centre>) {
+    fn throw_first<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        cells: &Level,
+        open: &[Voxel],
+        accepted: &mut Vec<Centre>,
+    ) {
         let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
         let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
         let share = open.len() as f64 / self.grid.cells() as f64;
         let mut left = (FIRST_DARTS * expected * share).ceil() as u64;
         while left > 0 {
-            let cell = open[self.rng.below(open.len() as u64) as usize];
-            self.throw(lanes, cells, cell, accepted);
+            let number = self.rng.below(open.len() as u64) as usize;
+            let cell = if GIVEN { open[number] } else { Voxel::cell(number) };
+            self.throw::<L, GIVEN>(lanes, cells, cell, accepted);
             left -= 1;
         }
     }
 
     /// Throws darts on open voxels and divides them, until none is open.
     #[inline(always)]
-    fn close<L: Lanes>(&mut self, lanes: L, levels: &[Level], mut open: Vec<Voxel>, accepted: &mut Vec<Centre>) {
+    fn close<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        levels: &[Level],
+        mut open: Vec<Voxel>,
+        accepted: &mut Vec<Centre>,
+    ) {
         let (mut parts, mut number) = (Vec::new(), 0);
         loop {
             let level = &levels[number];
@@ -101,7 +122,7 @@ impl Fill<'_> {
                 let mut left = (per_voxel * open.len() as f64).ceil() as u64;
                 while left > 0 {
                     let voxel = open[self.rng.below(open.len() as u64) as usize];
-                    self.throw(lanes, level, voxel, accepted);
+                    self.throw::<L, GIVEN>(lanes, level, voxel, accepted);
                     left -= 1;
                 }
             }
@@ -111,7 +132,7 @@ impl Fill<'_> {
             parts.clear();
             let mut index = 0;
             while index < open.len() {
-                let mut bits = self.grid.open_parts(lanes, level, open[index]);
+                let mut bits = self.grid.open_parts::<L, GIVEN>(lanes, level, open[index]);
                 while bits != 0 {
                     parts.push(level.part(open[index], bits.trailing_zeros()));
                     bits &= bits - 1;
@@ -139,9 +160,15 @@ impl Fill<'_> {
     }
 
     #[inline(always)]
-    fn throw<L: Lanes>(&mut self, lanes: L, level: &Level, voxel: Voxel, accepted: &mut Vec<Centre>) {
+    fn throw<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        level: &Level,
+        voxel: Voxel,
+        accepted: &mut Vec<Centre>,
+    ) {
         let dart = self.grid.dart(level, voxel, self.rng.bits());
-        if let Some(sample) = self.grid.hit(lanes, &dart) {
+        if let Some(sample) = self.grid.hit::<L, GIVEN>(lanes, &dart) {
             self.accept(lanes, sample, accepted);
         }
     }

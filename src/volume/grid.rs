@@ -225,14 +225,14 @@ impl Grid {
         Dart { cell: voxel.cell, offset }
     }
 
-    /// The lattice point next to a dart, unless a ball covers it.
+    /// The lattice point next to a dart, unless a ball covers it. `GIVEN` is true if there are given balls.
     #[inline(always)]
-    pub fn hit<L: Lanes>(&self, lanes: L, dart: &Dart) -> Option<Centre> {
+    pub fn hit<L: Lanes, const GIVEN: bool>(&self, lanes: L, dart: &Dart) -> Option<Centre> {
         // Nearly all darts miss, most of them by more than a lattice unit: these are not rounded.
         if self.is_within(lanes, dart, self.deep) {
             return None;
         }
-        if !self.given.is_empty() && self.given.stop(lanes, dart.cell, dart.offset) {
+        if GIVEN && self.given.stop(lanes, dart.cell, dart.offset) {
             return None;
         }
         let (place, mut point, mut offset, mut axis) = (self.places[dart.cell as usize], [0; 3], [0.0; 3], 0);
@@ -246,7 +246,7 @@ impl Grid {
         let rounded = Dart { offset, ..*dart };
         if self.is_within(lanes, &rounded, CERTAIN)
             || self.is_within(lanes, &rounded, POSSIBLE) && self.is_covered(point)
-            || self.given.cover(dart.cell, point)
+            || GIVEN && self.given.cover(dart.cell, point)
         {
             return None;
         }
@@ -278,7 +278,7 @@ impl Grid {
 
     /// The parts of a voxel that no single ball certainly covers, a bit for each (see [`Level::part`]).
     #[inline(always)]
-    pub fn open_parts<L: Lanes>(&self, lanes: L, level: &Level, voxel: Voxel) -> u64 {
+    pub fn open_parts<L: Lanes, const GIVEN: bool>(&self, lanes: L, level: &Level, voxel: Voxel) -> u64 {
         let voxel = VoxelBox::new(level, voxel);
         let VoxelBox { centre, .. } = voxel;
         let [cx, cy, cz] = splat(lanes, centre);
@@ -288,7 +288,7 @@ impl Grid {
         let [column_x, column_y] =
             [lanes.add(cx, lanes.load(&level.columns[0])), lanes.add(cy, lanes.load(&level.columns[1]))];
         let (certain, mut covered, mut page) = (lanes.splat(CERTAIN), !level.all, voxel.cell as usize);
-        if !self.given.is_empty() {
+        if GIVEN {
             covered |= self.given.covered_parts(lanes, level, &voxel);
         }
         loop {
@@ -421,13 +421,13 @@ mod tests {
             for _ in 0..300 {
                 let number = rng.below(levels.len() as u64) as usize;
                 let dart = grid.dart(&levels[number], voxel(number, &mut rng), rng.bits());
-                thrown.push((dart, grid.hit(lanes, &dart)));
+                thrown.push((dart, grid.hit::<L, false>(lanes, &dart)));
             }
             let mut looked = Vec::new();
             for _ in 0..300 {
                 let number = rng.below(levels.len().max(2) as u64 - 1) as usize;
                 let voxel = voxel(number, &mut rng);
-                looked.push((number, voxel, grid.open_parts(lanes, &levels[number], voxel)));
+                looked.push((number, voxel, grid.open_parts::<L, false>(lanes, &levels[number], voxel)));
             }
             (thrown, looked)
         }

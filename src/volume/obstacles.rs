@@ -181,7 +181,7 @@ impl Obstacles {
     /// True if a ball covers a lattice point next to a cell, relative to the grid: exact.
     pub fn cover(&self, cell: u16, point: Centre) -> bool {
         let point = Rect { min: point, max: point.map(|x| x + 1) };
-        !self.is_empty() && self.met.bin(cell as usize).iter().any(|&ball| self.balls[ball as usize].covers(&point))
+        self.met.bin(cell as usize).iter().any(|&ball| self.balls[ball as usize].covers(&point))
     }
 
     /// The balls that may have points of a cell.

@@ -62,3 +62,4 @@ mod thin;
 mod traces;
 mod volume;
 mod volume_given;
+mod volume_order;

@@ -17,7 +17,7 @@ fn cuboid(min: [f64; 3], max: [f64; 3], boundary: Boundary) -> Domain<3> {
 fn around(domain: Domain<3>, radius: f64, seed: u64, given: &Set) -> Vec<[f32; 3]> {
     let given = Given::with_clearances(&given.0, &given.1);
     let options = Options::new(radius).domain(domain).seed(seed).given(given);
-    sample(&Context::new(1).unwrap(), &options, None).unwrap().positions
+    sample(&Context::new(1).unwrap(), &options, None).unwrap().0.positions
 }
 
 fn check(domain: &Domain<3>, radius: f64, given: &Set, samples: &[[f32; 3]]) {
@@ -77,7 +77,7 @@ fn clearances_of_all_kinds() {
         let domain = cuboid([0.0; 3], [1.0, 0.9, 1.1], boundary);
         let (context, radius) = (Context::new(1).unwrap(), 0.07);
         let options = Options::new(radius).domain(domain);
-        let free = sample(&context, &options, None).unwrap().positions;
+        let free = sample(&context, &options, None).unwrap().0.positions;
         // Without effect.
         let nothing = (vec![[0.5; 3], [0.3, 0.4, 0.5]], vec![0.0, 0.0]);
         assert_eq!(around(domain, radius, 0, &nothing), free);
@@ -89,10 +89,10 @@ fn clearances_of_all_kinds() {
             assert!(around(domain, radius, 0, &all).is_empty());
         }
         // The radius of the set, of one that is maximal: there is no place left.
-        assert!(sample(&context, &options.given(Given::at(&free)), None).unwrap().is_empty());
+        assert!(sample(&context, &options.given(Given::at(&free)), None).unwrap().0.is_empty());
         // A part of it: what is missing is filled.
         let half: Vec<_> = free.iter().copied().filter(|sample| sample[0] < 0.5).collect();
-        let new = sample(&context, &options.given(Given::at(&half)), None).unwrap().positions;
+        let new = sample(&context, &options.given(Given::at(&half)), None).unwrap().0.positions;
         assert!(new.len() > free.len() / 3);
         let clearances = vec![radius; half.len()];
         check(&domain, radius, &(half, clearances), &new);
@@ -145,7 +145,7 @@ fn threads_do_not_matter() {
         let first = around(domain, 0.06, 1, &given);
         let options = Options::new(0.06).domain(domain).seed(1).given(Given::with_clearances(&given.0, &given.1));
         for threads in [2, 3] {
-            assert_eq!(first, sample(&Context::new(threads).unwrap(), &options, None).unwrap().positions);
+            assert_eq!(first, sample(&Context::new(threads).unwrap(), &options, None).unwrap().0.positions);
         }
     }
 }

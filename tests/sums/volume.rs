@@ -23,7 +23,7 @@ const CUBOIDS: [(&str, Domain<3>, f64); 6] = [
 pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
     for (seed, (name, domain, radius)) in (71..).zip(CUBOIDS) {
         let radius = if is_small { 3.0 * radius } else { radius };
-        list.samples(name, &sample(context, &Options::new(radius).domain(domain).seed(seed), None)?);
+        list.samples(name, &sample(context, &Options::new(radius).domain(domain).seed(seed), None)?.0);
     }
     Ok(())
 }
