@@ -74,7 +74,7 @@ mod tests {
             let ball = |rng: &mut Rng| std::array::from_fn(|axis| min[axis] - 5 + rng.below(18) as i32);
             let balls: Vec<_> = (0..case % 40).map(|_| ball(&mut rng)).collect();
             let is_open = |point: &Centre| balls.iter().all(|&ball| square(ball, *point) >= threshold);
-            match open_point(&points, &balls, threshold) {
+            match open_point(&points, &balls, threshold, &[]) {
                 Some(point) => {
                     assert!(points.contains(point) && is_open(&point));
                     found += 1;

@@ -183,7 +183,8 @@ mod tests {
 
     fn positions(lattice: &Lattice<3>, seed: u64, level: Level) -> Vec<Centre> {
         let context = Context::new(1).unwrap();
-        let set = context.run(None, |job| Set::new(job, lattice, &GivenDisks::default(), seed, level)).unwrap();
+        let given = GivenDisks::default();
+        let set = context.run(None, |job| Set::new(job, lattice, &given, seed, level)).unwrap();
         set.samples.into_iter().flatten().collect()
     }
 
