@@ -2,7 +2,8 @@
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::levels::{self, LevelOptions, Levelled, LevelledSet};
+use crate::levels::Ranked;
+pub use crate::levels::{LevelOptions, Levelled, LevelledSet, Levels, by_count, by_radius};
 use crate::mesh::{Mesh, exact};
 use crate::order::Order;
 use crate::points::Points;
@@ -41,7 +42,7 @@ impl SurfaceSample for Sample {
     }
 }
 
-impl<S: SurfaceSample> levels::Ranked for S {
+impl<S: SurfaceSample> Ranked for S {
     type Place = (u32, [u32; 2]);
 
     fn rank(&self) -> f32 {
@@ -113,7 +114,6 @@ pub fn check_work(has_given: bool, expected: f64, count: usize) -> Result<()> {
 mod tests {
     use super::*;
     use crate::job::Context;
-    use crate::levels::Levels;
     use crate::math::rounded_down;
     use crate::psp::fill::Measures;
     use crate::psp::fragment::Facing;

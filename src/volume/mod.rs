@@ -17,21 +17,18 @@ mod search;
 mod set;
 mod voxels;
 
-use std::time::Instant;
-
 use crate::error::{Error, Result};
 use crate::given::Given;
+use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 pub use crate::levels::Amount;
 use crate::levels::{self, LevelOptions, Levelled, Levels, Ranked};
-use crate::math::hypot;
 use crate::memory;
 use crate::order::{DEFAULT_QUOTIENT, Order, check_quotient};
 use crate::plane::{GivenDisks, Lattice, float_spacing};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius, finest_radius};
 use crate::setters::setters;
 use crate::simd::Level;
-use crate::volume::search::Centre;
 use crate::volume::set::{Sample, Set};
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
@@ -143,15 +140,14 @@ pub struct Report {
 /// more than floats or given samples leave room for; [`Error::TooLarge`] above 2^32 samples or the available memory, both
 /// before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     let &Options { amount, domain, seed, order, quotient, given } = options;
     domain.check()?;
     given.check()?;
     if order == Order::Progressive {
         check_quotient(quotient)?;
     }
-    let report =
-        |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: start.elapsed().as_secs_f64() };
+    let report = |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: start.seconds() };
     let finest = finest_radius(float_spacing(domain.min.iter().chain(&domain.max)));
     let (radius, bytes_per_sample) = match (amount, order) {
         (Amount::Radius(radius), Order::Any) => (radius, BYTES_PER_SAMPLE),
@@ -233,13 +229,13 @@ struct Cuboid<'a> {
 }
 
 impl Ranked for Sample {
-    type Place = Centre;
+    type Place = [i32; 3];
 
     fn rank(&self) -> f32 {
         self.rank
     }
 
-    fn place(&self) -> Centre {
+    fn place(&self) -> [i32; 3] {
         self.point
     }
 }
@@ -252,8 +248,7 @@ impl Levelled for Cuboid<'_> {
     const NAMES: [&'static str; 2] = ["domain", "domain"];
 
     fn top(&self) -> f64 {
-        let [x, y, z] = self.domain.extent();
-        TOP * hypot(hypot(x, y), z)
+        TOP * self.domain.extent().into_iter().map(|side| side * side).sum::<f64>().sqrt()
     }
 
     fn expected(&self, radius: f64) -> f64 {

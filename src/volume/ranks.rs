@@ -1,13 +1,30 @@
 //! Ranks: the distances of new samples of a block from the nearest ones before them.
 
 use crate::index::Binned;
-use crate::plane::Rect;
+use crate::math::rounded_down;
+use crate::plane::{Lattice, Rect};
+use crate::volume::blocks::REACH;
 use crate::volume::search::{Centre, square};
+
+/// The ranks of new samples of a block, up to the largest one; see [`squares`].
+pub fn up_to(
+    largest: f64,
+    lattice: &Lattice<3>,
+    block: &Rect<3>,
+    around: &[Centre],
+    added: &[Centre],
+    images: &[[i32; 3]],
+) -> Vec<f32> {
+    // The first square that is too long for the largest rank.
+    let farthest = (largest / lattice.unit()).min(REACH * lattice.radius);
+    let squares = squares(block, around, added, images, (farthest * farthest) as i64 + 1);
+    squares.into_iter().map(|square| rounded_down(lattice.length(square).min(largest))).collect()
+}
 
 /// For each new sample of a block the squared distance to the nearest sample that was there before it, but no more than
 /// `most`. `around` are the samples that were there at first, as far as they are nearer than that, and `images` the
 /// displacements of the images of new ones; a sample's own images do not count.
-pub fn squares(block: &Rect<3>, around: &[Centre], added: &[Centre], images: &[[i32; 3]], most: i64) -> Vec<i64> {
+fn squares(block: &Rect<3>, around: &[Centre], added: &[Centre], images: &[[i32; 3]], most: i64) -> Vec<i64> {
     if added.is_empty() {
         return Vec::new();
     }

@@ -5,7 +5,6 @@ use std::sync::{Mutex, PoisonError};
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::levels::LevelOptions;
-use crate::math::{self, rounded_down};
 use crate::plane::{GivenDisks, Lattice, Rect};
 use crate::rng::{Draw, Rng};
 use crate::simd::{self, Level};
@@ -138,12 +137,9 @@ impl<'a> Set<'a> {
         };
         let added = simd::run(self.level, fill);
         grids().push(grid);
-        let ranks = self.largest_rank.map(|largest| {
-            // The first square that is too long for the largest rank.
-            let most = math::square((largest / lattice.unit()).min(REACH * lattice.radius)) as i64 + 1;
-            let squares = ranks::squares(&leaf.rect, &around, &added, &blocks.images, most);
-            squares.into_iter().map(|square| rounded_down(lattice.length(square).min(largest))).collect()
-        });
+        let ranks = self
+            .largest_rank
+            .map(|largest| ranks::up_to(largest, lattice, &leaf.rect, &around, &added, &blocks.images));
         (added, ranks.unwrap_or_default())
     }
 

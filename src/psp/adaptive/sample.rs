@@ -7,7 +7,6 @@
 use crate::error::{Error, Result};
 use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
-use crate::levels::{self, LevelOptions, Levelled, LevelledSet, Levels};
 use crate::math::square;
 use crate::mesh::Mesh;
 use crate::order::{Order, check_quotient};
@@ -20,7 +19,7 @@ use crate::psp::adaptive::site::{GradedSurface, OneKind, fill_octaves};
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
 use crate::psp::given::{Obstacles, require_clearances};
-use crate::psp::levels::{NAMES, SurfaceSample, check_work, top};
+use crate::psp::levels::{self, LevelOptions, Levelled, LevelledSet, Levels, NAMES, SurfaceSample, check_work, top};
 use crate::psp::report::Report;
 use crate::psp::set::Sample;
 
