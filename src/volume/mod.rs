@@ -19,10 +19,10 @@ mod voxels;
 
 use crate::error::{Error, Result};
 use crate::given::Given;
-use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 pub use crate::levels::Amount;
 use crate::levels::{self, LevelOptions, Levelled, Levels, Ranked};
+use crate::math::hypot;
 use crate::memory;
 use crate::order::{DEFAULT_QUOTIENT, Order, check_quotient};
 use crate::plane::{GivenDisks, Lattice, float_spacing};
@@ -140,14 +140,15 @@ pub struct Report {
 /// more than floats or given samples leave room for; [`Error::TooLarge`] above 2^32 samples or the available memory, both
 /// before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
-    let start = Stopwatch::start();
+    let start = std::time::Instant::now();
     let &Options { amount, domain, seed, order, quotient, given } = options;
     domain.check()?;
     given.check()?;
     if order == Order::Progressive {
         check_quotient(quotient)?;
     }
-    let report = |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: start.seconds() };
+    let report =
+        |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: start.elapsed().as_secs_f64() };
     let finest = finest_radius(float_spacing(domain.min.iter().chain(&domain.max)));
     let (radius, bytes_per_sample) = match (amount, order) {
         (Amount::Radius(radius), Order::Any) => (radius, BYTES_PER_SAMPLE),
@@ -248,7 +249,8 @@ impl Levelled for Cuboid<'_> {
     const NAMES: [&'static str; 2] = ["domain", "domain"];
 
     fn top(&self) -> f64 {
-        TOP * self.domain.extent().into_iter().map(|side| side * side).sum::<f64>().sqrt()
+        let [x, y, z] = self.domain.extent();
+        TOP * hypot(hypot(x, y), z)
     }
 
     fn expected(&self, radius: f64) -> f64 {
