@@ -853,8 +853,9 @@ using PspOptions = GivenOptions<Options<azulejo_psp_options, azulejo_psp_options
 using DcrOptions = PlaneOptions<azulejo_dcr_options, azulejo_dcr_options_init>;
 /// See azulejo_dcr_surface_options.
 using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surface_options_init>;
-/// See azulejo_volume_options; `radius` has no default.
-using VolumeOptions = Options<azulejo_volume_options, azulejo_volume_options_init>;
+/// See azulejo_volume_options; `radius` or `count` is to be set.
+using VolumeOptions =
+    GivenOptions<Options<azulejo_volume_options, azulejo_volume_options_init>, 3>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
 using ThinOptions = Options<azulejo_thin_options, azulejo_thin_options_init>;
 

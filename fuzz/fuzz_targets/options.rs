@@ -193,6 +193,8 @@ fn volume(input: &mut Input, patience: &Patience) {
     if !watched!(memory, azulejo_volume_options, patience) {
         quick(&mut memory, std::mem::offset_of!(azulejo_volume_options, radius));
     }
+    let (given, clearances) = ([0.2f32, 0.1, 0.0, 0.7, 0.1, 0.2], [0.1f64, 0.3]);
+    put_given!(memory, azulejo_volume_options, given, clearances, input);
     // SAFETY: the options have the size in their `struct_size`.
     create(|out| unsafe { azulejo_volume_sample(context(), memory.start.cast(), out, std::ptr::null_mut()) });
 }

@@ -16,7 +16,8 @@ extern "C" {
 typedef struct azulejo_volume_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
-    /// Above 0, and at least 64 float spacings; it may exceed the domain. It has no default.
+    /// Above 0, and at least 64 float spacings; it may exceed the domain. It has no default; with a
+    /// `count` it must be 0.
     double radius;
     double domain_min[3]; ///< The lower corner of the domain, x y z; default 0 0 0.
     /// The upper corner, above the lower one on all axes; default 1 1 1. No side may be longer than
@@ -25,6 +26,23 @@ typedef struct azulejo_volume_options {
     uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
+    size_t count; ///< The exact number of samples; default 0: as many as the radius gives.
+    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
+    /// well spread, and azulejo_points_ranks says how well.
+    uint32_t order;
+    uint32_t reserved; ///< Always 0.
+    /// Of a progressive order: how many times longer the radius of each level is than that of the
+    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8).
+    double quotient;
+    /// Samples that stand already, x y z each, anywhere; on a torus they wrap. NULL, the default,
+    /// for none. They are never moved, dropped or compared with each other, and are not returned:
+    /// new samples are at least the clearance from each of them, and every place of the domain is
+    /// within the radius of a new sample or within the clearance of a given one.
+    const float *given_positions;
+    /// The clearance of each, 0 or more; 0 has no effect. NULL, the default: all have the radius of
+    /// the set, which with a `count` is refused.
+    const double *given_clearances;
+    size_t given_count; ///< The number of given samples; default 0.
 } azulejo_volume_options;
 
 /// The report of azulejo_volume_sample.
@@ -32,8 +50,11 @@ typedef struct azulejo_volume_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t reserved; ///< Always 0.
     uint64_t samples; ///< The number of samples.
-    double radius; ///< The radius of the set.
+    double radius; ///< No two samples are nearer: the radius, also that of the set of a count.
     double seconds; ///< Wall time in seconds.
+    /// No place of the domain is farther from all samples and outside of all given ones, up to
+    /// the tolerance: the radius, with a count mostly up to 1.1 times it.
+    double covering_radius;
 } azulejo_volume_report;
 
 /// Writes the defaults.
@@ -48,6 +69,9 @@ azulejo_status azulejo_volume_report_init(azulejo_volume_report *report, size_t 
 /// radius^3 samples, up to 0.3 % more than by darts that are thrown one after the other; a bounded
 /// cuboid has more, since samples stand on its faces. If a period of a torus is below the radius, a
 /// sample does not conflict with its own image. Samples are sorted by blocks of 9 to 18 radii.
+///
+/// With a `count`, in progressive order or around given samples see the options; around given
+/// samples the tolerance is 7 float spacings, in progressive order 9.
 /// - O(samples) time and memory. Source: M. S. Ebeida et al., A Simple Algorithm for Maximal
 ///   Poisson-Disk Sampling in High Dimensions, 2012.
 azulejo_status azulejo_volume_sample(const azulejo_context *context,

@@ -65,6 +65,15 @@ impl<const D: usize> Tree<D> {
         leaves
     }
 
+    /// The leaf that a point of the domain lies in. O(depth).
+    pub fn leaf(&self, point: [i32; D]) -> Leaf<D> {
+        let mut node = self.root;
+        while let Some([lower, upper]) = self.split(node) {
+            node = if lower.rect.contains(point) { lower } else { upper };
+        }
+        node
+    }
+
     fn descend(&self, node: Leaf<D>, window: &Rect<D>, leaves: &mut Vec<Leaf<D>>) {
         if node.rect.intersection(window).is_empty() {
             return;

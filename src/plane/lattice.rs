@@ -118,6 +118,32 @@ impl<const D: usize> Lattice<D> {
     pub fn unit(&self) -> f64 {
         self.unit
     }
+
+    /// The position in lattice units; on a torus wrapped into the first period.
+    pub fn place(&self, domain: &Domain<D>, position: [f32; D]) -> [f64; D] {
+        std::array::from_fn(|axis| {
+            let mut x = f64::from(position[axis]);
+            if self.boundary == Boundary::Periodic {
+                let (min, extent) = (domain.min[axis], domain.extent()[axis]);
+                x -= extent * ((x - min) / extent).floor();
+            }
+            (x - self.origin[axis]) / self.unit
+        })
+    }
+
+    /// The number of units by which distances across the seam of a torus can be shorter than on the lattice.
+    pub fn short(&self, domain: &Domain<D>) -> f64 {
+        let short = |axis: usize| (domain.extent()[axis] / self.unit - f64::from(self.size[axis])).max(0.0);
+        if self.boundary == Boundary::Bounded {
+            return 0.0;
+        }
+        (1..D).fold(short(0), |sum, axis| hypot(sum, short(axis)))
+    }
+
+    /// The length whose square is given in lattice units: the distance in `f64` of two returned floats.
+    pub fn length(&self, square: i64) -> f64 {
+        (square as f64).sqrt() * self.unit
+    }
 }
 
 impl Lattice {
@@ -223,29 +249,6 @@ impl Lattice {
             point += 1;
         }
         point
-    }
-
-    /// The position in lattice units; on a torus wrapped into the first period.
-    pub fn place(&self, domain: &Domain, position: [f32; 2]) -> [f64; 2] {
-        std::array::from_fn(|axis| {
-            let mut x = f64::from(position[axis]);
-            if self.boundary == Boundary::Periodic {
-                let (min, extent) = (domain.min[axis], domain.extent()[axis]);
-                x -= extent * ((x - min) / extent).floor();
-            }
-            (x - self.origin[axis]) / self.unit
-        })
-    }
-
-    /// The number of units by which distances across the seam of a torus can be shorter than on the lattice.
-    pub fn short(&self, domain: &Domain) -> f64 {
-        let short = |axis: usize| (domain.extent()[axis] / self.unit - f64::from(self.size[axis])).max(0.0);
-        if self.boundary == Boundary::Periodic { hypot(short(0), short(1)) } else { 0.0 }
-    }
-
-    /// The length whose square is given in lattice units: the distance in `f64` of two returned floats.
-    pub fn length(&self, square: i64) -> f64 {
-        (square as f64).sqrt() * self.unit
     }
 
     /// The lattice point with these coordinates, which must be those of one: the inverse of [`Lattice::position`].

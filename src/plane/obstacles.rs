@@ -1,43 +1,43 @@
 //! Disks in the plane in addition to the samples of a grid, of any radii and at any positions: no sample may lie in
-//! one, and points in one are covered.
+//! one, and points in one are covered. Balls, if `D` is 3.
 //!
 //! Their centres need not lie on the lattice, so distances to them are numbers in `f64`. A lattice point lies in a disk
 //! if its computed distance does, and a rectangle of them if its farthest corner does. Rounding is monotone, so then
 //! all of its points do: the two tests are consistent, and a search for uncovered points ends.
 
-use std::cmp::Ordering;
-
 use crate::given::Given;
 use crate::index::Binned;
+use crate::math::pow;
 use crate::plane::{lattice::Lattice, rect::Rect};
 use crate::points::{Boundary, Domain};
 
-/// A disk in lattice units, without its boundary.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Disk {
-    pub centre: [f64; 2],
+/// A disk in lattice units, without its boundary; a ball if `D` is 3.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Disk<const D: usize = 2> {
+    pub centre: [f64; D],
     pub radius: f64,
 }
 
-impl Disk {
+impl<const D: usize> Disk<D> {
     /// True if all lattice points of a rectangle lie in the disk.
-    pub fn covers(&self, rect: &Rect) -> bool {
-        let along = |axis: usize| {
+    pub fn covers(&self, rect: &Rect<D>) -> bool {
+        self.reaches(|axis| {
             let ends = [f64::from(rect.min[axis]), f64::from(rect.max[axis] - 1)];
             ends.map(|end| (end - self.centre[axis]).abs()).into_iter().fold(0.0, f64::max)
-        };
-        let [dx, dy] = [along(0), along(1)];
-        dx * dx + dy * dy < self.radius * self.radius
+        })
     }
 
     /// True if the disk may have points of a rectangle of lattice points.
-    pub fn meets(&self, rect: &Rect) -> bool {
-        let along = |axis: usize| {
+    pub fn meets(&self, rect: &Rect<D>) -> bool {
+        self.reaches(|axis| {
             let (first, last) = (f64::from(rect.min[axis]), f64::from(rect.max[axis] - 1));
             (first - self.centre[axis]).max(self.centre[axis] - last).max(0.0)
-        };
-        let [dx, dy] = [along(0), along(1)];
-        dx * dx + dy * dy < self.radius * self.radius
+        })
+    }
+
+    /// True if a vector from the centre ends in the disk.
+    pub fn reaches(&self, along: impl Fn(usize) -> f64) -> bool {
+        (0..D).map(|axis| along(axis) * along(axis)).sum::<f64>() < self.radius * self.radius
     }
 }
 
@@ -129,43 +129,44 @@ const RELATIVE: f64 = 1e-13;
 /// The absolute widening of a disk, in lattice units, for the rounding of its position.
 const ABSOLUTE: f64 = 1e-6;
 
-/// The shortest side of a bin, in radii.
-const BIN: f64 = 32.0;
+/// The disks in a bin of the shortest side, where there are as many as samples.
+const PER_BIN: f64 = 1024.0;
 
 /// The disks of given samples by octaves of their radii.
 #[derive(Default)]
-pub struct GivenDisks {
-    octaves: Vec<Octave>,
+pub struct GivenDisks<const D: usize = 2> {
+    octaves: Vec<Octave<D>>,
     /// The size of the torus.
-    periods: Option<[i32; 2]>,
+    periods: Option<[i32; D]>,
 }
 
 /// Disks of about the same radius, sorted by bins.
-struct Octave {
+struct Octave<const D: usize> {
     /// No disk has a longer radius.
     radius: f64,
     /// The side of a bin.
     side: f64,
-    /// The disks by rows and columns of bins, on a torus in its first period.
-    disks: Vec<([i64; 2], Disk)>,
+    /// The disks by bins, whose last axis is the first of the key; on a torus in its first period.
+    disks: Vec<([i64; D], Disk<D>)>,
 }
 
-impl GivenDisks {
+impl<const D: usize> GivenDisks<D> {
     /// The given samples of a domain, whose lattice has the radius of the set.
-    pub fn new(domain: &Domain, lattice: &Lattice, radius: f64, given: &Given<2>) -> Self {
-        let mut disks: Vec<Disk> = (0..given.positions.len())
+    pub fn new(domain: &Domain<D>, lattice: &Lattice<D>, radius: f64, given: &Given<D>) -> Self {
+        let mut disks: Vec<Disk<D>> = (0..given.positions.len())
             .filter(|&index| given.clearance(index, radius) > 0.0)
             .map(|index| Disk::around(domain, lattice, given.positions[index], given.clearance(index, radius)))
             .collect();
         disks.sort_unstable_by(|a, b| a.radius.total_cmp(&b.radius));
-        let is_same = |a: &Disk, b: &Disk| octave(a.radius) == octave(b.radius);
-        let octaves = disks.chunk_by(is_same).map(|disks| Octave::new(disks, BIN * lattice.radius)).collect();
+        let is_same = |a: &Disk<D>, b: &Disk<D>| octave(a.radius) == octave(b.radius);
+        let shortest = pow(PER_BIN, 1.0 / D as f64) * lattice.radius;
+        let octaves = disks.chunk_by(is_same).map(|disks| Octave::new(disks, shortest)).collect();
         let periods = (lattice.boundary == Boundary::Periodic).then_some(lattice.size);
         Self { octaves, periods }
     }
 
     /// The disks that may have points of a rectangle of lattice points; on a torus all their images that do.
-    pub fn near(&self, rect: &Rect) -> Vec<Disk> {
+    pub fn near(&self, rect: &Rect<D>) -> Vec<Disk<D>> {
         let mut near = Vec::new();
         for octave in &self.octaves {
             let turns = |axis: usize| match self.periods {
@@ -179,10 +180,18 @@ impl GivenDisks {
                     ((first - 1).div_euclid(period)..=last.div_euclid(period), period)
                 }
             };
-            let ((columns, width), (rows, height)) = (turns(0), turns(1));
-            for [x, y] in rows.flat_map(|y| columns.clone().map(move |x| [x * width, y * height])) {
-                octave.visit(&rect.translated([-x, -y]), |disk| {
-                    let centre = [disk.centre[0] + f64::from(x), disk.centre[1] + f64::from(y)];
+            let mut images = vec![[0; D]];
+            for axis in (0..D).rev() {
+                let (turns, period) = turns(axis);
+                let moved = |mut image: [i32; D], turn: i32| {
+                    image[axis] = turn * period;
+                    image
+                };
+                images = images.iter().flat_map(|&image| turns.clone().map(move |turn| moved(image, turn))).collect();
+            }
+            for image in images {
+                octave.visit(&rect.translated(image.map(|x| -x)), |disk| {
+                    let centre = std::array::from_fn(|axis| disk.centre[axis] + f64::from(image[axis]));
                     near.push(Disk { centre, ..disk });
                 });
             }
@@ -191,9 +200,9 @@ impl GivenDisks {
     }
 }
 
-impl Disk {
+impl<const D: usize> Disk<D> {
     /// The disk of a position with a clearance, on a torus in its first period.
-    pub fn around(domain: &Domain, lattice: &Lattice, position: [f32; 2], clearance: f64) -> Self {
+    pub fn around(domain: &Domain<D>, lattice: &Lattice<D>, position: [f32; D], clearance: f64) -> Self {
         let radius = clearance / lattice.unit() * (1.0 + RELATIVE) + ABSOLUTE + lattice.short(domain);
         Self { centre: lattice.place(domain, position), radius }
     }
@@ -204,29 +213,44 @@ fn octave(radius: f64) -> u64 {
     radius.to_bits() >> 52
 }
 
-impl Octave {
-    fn new(disks: &[Disk], shortest: f64) -> Self {
+impl<const D: usize> Octave<D> {
+    fn new(disks: &[Disk<D>], shortest: f64) -> Self {
         let radius = disks.last().map_or(0.0, |disk| disk.radius);
         let side = radius.max(shortest);
-        let bin = |disk: &Disk| [1, 0].map(|axis: usize| (disk.centre[axis] / side).floor() as i64);
+        let bin = |disk: &Disk<D>| std::array::from_fn(|k| (disk.centre[D - 1 - k] / side).floor() as i64);
         let mut disks: Vec<_> = disks.iter().map(|disk| (bin(disk), *disk)).collect();
         disks.sort_unstable_by_key(|(bin, _)| *bin);
         Self { radius, side, disks }
     }
 
     /// Visits the disks that may have points of a rectangle.
-    fn visit(&self, rect: &Rect, mut visit: impl FnMut(Disk)) {
+    fn visit(&self, rect: &Rect<D>, mut visit: impl FnMut(Disk<D>)) {
         let bin = |x: f64| (x / self.side).floor() as i64;
-        let first = rect.min.map(|x| bin(f64::from(x) - self.radius));
-        let last = rect.max.map(|x| bin(f64::from(x) + self.radius));
-        let mut from = self.disks.partition_point(|(bin, _)| bin[0] < first[1]);
+        let range = |k: usize| {
+            let [first, last] = [rect.min[D - 1 - k], rect.max[D - 1 - k]].map(f64::from);
+            [bin(first - self.radius), bin(last + self.radius)]
+        };
+        Self::visit_bins(&self.disks, &std::array::from_fn(range), 0, &mut |disk| {
+            if disk.meets(rect) {
+                visit(disk);
+            }
+        });
+    }
+
+    /// Visits the disks in a box of bins, of those whose keys differ from number `k` on.
+    fn visit_bins(mut disks: &[([i64; D], Disk<D>)], bins: &[[i64; 2]; D], k: usize, visit: &mut impl FnMut(Disk<D>)) {
+        let [first, last] = bins[k];
+        disks = &disks[disks.partition_point(|(bin, _)| bin[k] < first)..];
+        if k + 1 == D {
+            let end = disks.partition_point(|(bin, _)| bin[k] <= last);
+            disks[..end].iter().for_each(|(_, disk)| visit(*disk));
+            return;
+        }
         // Row by row of bins that have any.
-        while let Some(&([row, _], _)) = self.disks.get(from).filter(|(bin, _)| bin[0] <= last[1]) {
-            let rest = &self.disks[from..];
-            let start = rest.partition_point(|(bin, _)| bin.cmp(&[row, first[0]]) == Ordering::Less);
-            let end = rest.partition_point(|(bin, _)| bin.cmp(&[row, last[0]]) != Ordering::Greater);
-            rest[start..end].iter().filter(|(_, disk)| disk.meets(rect)).for_each(|(_, disk)| visit(*disk));
-            from += rest.partition_point(|(bin, _)| bin[0] <= row);
+        while let Some(&(bin, _)) = disks.first().filter(|(bin, _)| bin[k] <= last) {
+            let (row, rest) = disks.split_at(disks.partition_point(|(other, _)| other[k] <= bin[k]));
+            Self::visit_bins(row, bins, k + 1, visit);
+            disks = rest;
         }
     }
 }

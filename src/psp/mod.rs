@@ -33,12 +33,12 @@ mod project;
 mod report;
 mod set;
 
+pub use crate::levels::Amount;
 pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
 pub use options::{
-    Amount, ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors,
-    RegionOptions,
+    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors, RegionOptions,
 };
 pub use progressive::{Psp, project, sample};
 pub use report::Report;

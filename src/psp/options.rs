@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::given::Given;
+use crate::levels::Amount;
 use crate::order::Order;
 pub use crate::order::{DEFAULT_QUOTIENT, check_quotient};
 use crate::psp::adaptive::Radius;
@@ -62,15 +63,6 @@ impl Engine {
     pub(super) fn of_global(self) -> Self {
         if self == Self::Auto { Self::AVAILABLE[0] } else { self }
     }
-}
-
-/// The number of samples: by their radius or directly.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Amount {
-    /// As many as fit with this smallest distance, in the units of the mesh; positive and finite.
-    Radius(f64),
-    /// Exactly so many, at least 1: the radius is found, and returned in [`Report::radius`](super::Report::radius).
-    Count(usize),
 }
 
 /// The options of [`sample`](super::sample).

@@ -16,7 +16,7 @@ use crate::volume::fill::Pass;
 const SHORTEST: f64 = 9.0;
 
 /// The distance from a block in radii within which samples matter to it: darts fall within one radius.
-const REACH: f64 = 2.0;
+pub const REACH: f64 = 2.0;
 
 /// A block whose samples matter to another one: its number, and the displacement of its image.
 pub type Neighbour = (u32, [i32; 3]);
@@ -33,6 +33,9 @@ pub struct Blocks {
     pub images: Vec<[i32; 3]>,
     /// True for these axes.
     wraps: [bool; 3],
+    tree: Tree<3>,
+    /// The numbers of blocks by their keys.
+    numbers: HashMap<u64, u32>,
 }
 
 impl Blocks {
@@ -59,7 +62,12 @@ impl Blocks {
         let neighbours: Vec<_> = (0..leaves.len() as u32).map(around).collect();
         let mut images = displacements(lattice, wraps);
         images.retain(|image| *image != [0; 3]);
-        Self { waves: waves(&leaves, &neighbours), leaves, neighbours, images, wraps }
+        Self { waves: waves(&leaves, &neighbours), leaves, neighbours, images, wraps, tree, numbers }
+    }
+
+    /// The number of the block that a lattice point of the domain lies in.
+    pub fn holding(&self, point: [i32; 3]) -> u32 {
+        self.numbers[&self.tree.leaf(point).key]
     }
 
     /// The lattice points on which the darts of a block fall.
@@ -126,6 +134,10 @@ mod tests {
                 let volume = |rect: &Rect<3>| (0..3).map(|axis| i128::from(rect.length(axis))).product::<i128>();
                 let all: i128 = blocks.leaves.iter().map(|leaf| volume(&leaf.rect)).sum();
                 assert_eq!(all, volume(&lattice.rect()));
+                for (number, leaf) in (0..).zip(&blocks.leaves) {
+                    let last = leaf.rect.max.map(|x| x - 1);
+                    assert_eq!([leaf.rect.min, last].map(|point| blocks.holding(point)), [number; 2]);
+                }
                 let periods = displacements(&lattice, [boundary == Boundary::Periodic; 3]);
                 for (number, leaf) in blocks.leaves.iter().enumerate() {
                     for (other, near) in blocks.leaves.iter().enumerate().filter(|&(other, _)| other != number) {

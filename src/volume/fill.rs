@@ -4,7 +4,7 @@
 //! is divided into 4 × 4 × 4 parts at once, of which a ball's cover is a mask of 64 bits; a round throws its darts before it
 //! divides; and voxels that are left at the end are searched for open lattice points in integers, so that none is left.
 
-use crate::plane::{Rect, Separation};
+use crate::plane::{Disk, Rect, Separation};
 use crate::points::MAXIMAL_DENSITY_IN_SPACE;
 use crate::rng::Rng;
 use crate::simd::{Lanes, Work};
@@ -32,7 +32,9 @@ pub enum Pass {
 
 impl Pass {
     /// The passes in their order.
-    pub const ALL: [Self; 2] = [Self::First, Self::Last];
+    pub const ALL: &[Self] = &[Self::First, Self::Last];
+    /// Those where samples cover most of the domain already.
+    pub const LAST: &[Self] = &[Self::Last];
 }
 
 /// One pass over a block. The result are the new samples in it.
@@ -48,6 +50,8 @@ pub struct Fill<'a> {
     pub separation: Separation,
     /// The samples that stand in the region and near it, with their images.
     pub around: &'a [Centre],
+    /// The given balls that may have points of the region.
+    pub given: &'a [Disk<3>],
     /// The displacements of the images of a new sample that matter to the block.
     pub images: &'a [[i32; 3]],
     pub rng: Rng,
@@ -57,38 +61,58 @@ impl Work for Fill<'_> {
     type Out = Vec<Centre>;
 
     #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) -> Vec<Centre> {
-        self.grid.reset(&self.region, self.radius, self.separation);
+    fn run<L: Lanes>(self, lanes: L) -> Vec<Centre> {
+        self.grid.reset(&self.region, self.radius, self.separation, self.given);
         for &sample in self.around {
             self.grid.add(lanes, sample);
         }
-        let (levels, mut accepted) = (self.grid.levels(), Vec::new());
-        match self.pass {
-            Pass::First => self.throw_first(lanes, &levels[0], &mut accepted),
-            Pass::Last => self.close(lanes, &levels, &mut accepted),
-        }
-        accepted
+        // Compiled twice, so that sets without given samples pay nothing for them.
+        if self.given.is_empty() { self.fill::<L, false>(lanes) } else { self.fill::<L, true>(lanes) }
     }
 }
 
 impl Fill<'_> {
-    /// Throws darts on the whole region.
     #[inline(always)]
-    fn throw_first<L: Lanes>(&mut self, lanes: L, cells: &Level, accepted: &mut Vec<Centre>) {
+    fn fill<L: Lanes, const GIVEN: bool>(mut self, lanes: L) -> Vec<Centre> {
+        let (levels, open, mut accepted) = (self.grid.levels(), self.grid.open_cells(), Vec::new());
+        match self.pass {
+            _ if open.is_empty() => (),
+            Pass::First => self.throw_first::<L, GIVEN>(lanes, &levels[0], &open, &mut accepted),
+            Pass::Last => self.close::<L, GIVEN>(lanes, &levels, open, &mut accepted),
+        }
+        accepted
+    }
+
+    /// Throws darts on all open cells.
+    #[inline(always)]
+    fn throw_first<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        cells: &Level,
+        open: &[Voxel],
+        accepted: &mut Vec<Centre>,
+    ) {
         let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
         let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
-        let (mut left, count) = ((FIRST_DARTS * expected).ceil() as u64, self.grid.cells() as u64);
+        let share = open.len() as f64 / self.grid.cells() as f64;
+        let mut left = (FIRST_DARTS * expected * share).ceil() as u64;
         while left > 0 {
-            let cell = self.rng.below(count);
-            self.throw(lanes, cells, Voxel::cell(cell as usize), accepted);
+            let number = self.rng.below(open.len() as u64) as usize;
+            let cell = if GIVEN { open[number] } else { Voxel::cell(number) };
+            self.throw::<L, GIVEN>(lanes, cells, cell, accepted);
             left -= 1;
         }
     }
 
     /// Throws darts on open voxels and divides them, until none is open.
     #[inline(always)]
-    fn close<L: Lanes>(&mut self, lanes: L, levels: &[Level], accepted: &mut Vec<Centre>) {
-        let mut open: Vec<Voxel> = (0..self.grid.cells()).map(Voxel::cell).collect();
+    fn close<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        levels: &[Level],
+        mut open: Vec<Voxel>,
+        accepted: &mut Vec<Centre>,
+    ) {
         let (mut parts, mut number) = (Vec::new(), 0);
         loop {
             let level = &levels[number];
@@ -98,7 +122,7 @@ impl Fill<'_> {
                 let mut left = (per_voxel * open.len() as f64).ceil() as u64;
                 while left > 0 {
                     let voxel = open[self.rng.below(open.len() as u64) as usize];
-                    self.throw(lanes, level, voxel, accepted);
+                    self.throw::<L, GIVEN>(lanes, level, voxel, accepted);
                     left -= 1;
                 }
             }
@@ -108,7 +132,7 @@ impl Fill<'_> {
             parts.clear();
             let mut index = 0;
             while index < open.len() {
-                let mut bits = self.grid.open_parts(lanes, level, open[index]);
+                let mut bits = self.grid.open_parts::<L, GIVEN>(lanes, level, open[index]);
                 while bits != 0 {
                     parts.push(level.part(open[index], bits.trailing_zeros()));
                     bits &= bits - 1;
@@ -123,10 +147,10 @@ impl Fill<'_> {
     /// Puts samples on open lattice points of voxels, which are sorted by cell, until there are none.
     fn search<L: Lanes>(&mut self, lanes: L, level: &Level, open: &[Voxel], accepted: &mut Vec<Centre>) {
         for voxels in open.chunk_by(|a, b| a.cell == b.cell) {
-            let mut near = self.grid.balls_near(voxels[0].cell);
+            let (mut near, given) = (self.grid.balls_near(voxels[0].cell), self.grid.given_near(voxels[0].cell));
             for &voxel in voxels {
                 let points = self.grid.points(level, voxel);
-                while let Some(point) = open_point(&points, &near, self.separation.threshold) {
+                while let Some(point) = open_point(&points, &near, self.separation.threshold, &given) {
                     let known = self.grid.balls().len();
                     self.accept(lanes, self.grid.absolute(point), accepted);
                     near.extend(&self.grid.balls()[known..]);
@@ -136,9 +160,15 @@ impl Fill<'_> {
     }
 
     #[inline(always)]
-    fn throw<L: Lanes>(&mut self, lanes: L, level: &Level, voxel: Voxel, accepted: &mut Vec<Centre>) {
+    fn throw<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        level: &Level,
+        voxel: Voxel,
+        accepted: &mut Vec<Centre>,
+    ) {
         let dart = self.grid.dart(level, voxel, self.rng.bits());
-        if let Some(sample) = self.grid.hit(lanes, &dart) {
+        if let Some(sample) = self.grid.hit::<L, GIVEN>(lanes, &dart) {
             self.accept(lanes, sample, accepted);
         }
     }

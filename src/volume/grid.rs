@@ -10,10 +10,11 @@
 //! `1 + SLACK` none, and what lies between is decided by the integers. Voxels that a ball covers within the slack only are
 //! divided, until the last ones are searched in integers (`search.rs`).
 
-use crate::plane::{Rect, Separation};
+use crate::plane::{Disk, Rect, Separation};
 use crate::simd::{LANES, Lanes};
+use crate::volume::obstacles::{Cells, Obstacles};
 use crate::volume::search::{Centre, square, touches};
-use crate::volume::voxels::{Level, Voxel};
+use crate::volume::voxels::{Level, Voxel, VoxelBox};
 
 /// Squared distances in `f32`, in squared radii, are wrong by less than this.
 const SLACK: f32 = 1.0 / (1 << 18) as f32;
@@ -73,6 +74,7 @@ pub struct Grid {
     /// The page of the same cell that follows on each page, or 0.
     next: Vec<u32>,
     balls: Vec<Centre>,
+    given: Obstacles,
 }
 
 /// A place in a cell where a sample may be put.
@@ -84,8 +86,8 @@ pub struct Dart {
 }
 
 impl Grid {
-    /// Forgets all balls, and covers another region, for a radius in lattice units.
-    pub fn reset(&mut self, region: &Rect<3>, radius: f64, separation: Separation) {
+    /// Forgets all balls, and covers another region, for a radius in lattice units, with given balls that may matter to it.
+    pub fn reset(&mut self, region: &Rect<3>, radius: f64, separation: Separation, given: &[Disk<3>]) {
         self.origin = region.min;
         self.size = std::array::from_fn(|axis| region.length(axis));
         self.counts = self.size.map(|size| (f64::from(size) / (CELL * radius)).ceil() as usize);
@@ -111,11 +113,26 @@ impl Grid {
         self.pages.resize(cells, Page::EMPTY);
         self.next.clear();
         self.next.resize(cells, 0);
+        self.given = if given.is_empty() { Obstacles::default() } else { self.obstacles(given, margin) };
+    }
+
+    /// Given balls in the cells.
+    #[cold]
+    fn obstacles(&self, given: &[Disk<3>], margin: f64) -> Obstacles {
+        let Self { counts, sides, radius, origin, .. } = *self;
+        let centre = |ball: &Disk<3>| std::array::from_fn(|axis| ball.centre[axis] - f64::from(origin[axis]));
+        let balls = given.iter().map(|ball| Disk { centre: centre(ball), ..*ball }).collect();
+        Obstacles::new(&Cells { counts, sides, radius, margin }, balls)
     }
 
     /// The number of cells.
     pub fn cells(&self) -> usize {
         self.places.len()
+    }
+
+    /// The cells that no given ball covers as a whole.
+    pub fn open_cells(&self) -> Vec<Voxel> {
+        (0..self.cells()).filter(|&cell| !self.given.cover_cell(cell)).map(Voxel::cell).collect()
     }
 
     /// The sizes of voxels.
@@ -208,11 +225,14 @@ impl Grid {
         Dart { cell: voxel.cell, offset }
     }
 
-    /// The lattice point next to a dart, unless a ball covers it.
+    /// The lattice point next to a dart, unless a ball covers it. `GIVEN` is true if there are given balls.
     #[inline(always)]
-    pub fn hit<L: Lanes>(&self, lanes: L, dart: &Dart) -> Option<Centre> {
+    pub fn hit<L: Lanes, const GIVEN: bool>(&self, lanes: L, dart: &Dart) -> Option<Centre> {
         // Nearly all darts miss, most of them by more than a lattice unit: these are not rounded.
         if self.is_within(lanes, dart, self.deep) {
+            return None;
+        }
+        if GIVEN && self.given.stop(lanes, dart.cell, dart.offset) {
             return None;
         }
         let (place, mut point, mut offset, mut axis) = (self.places[dart.cell as usize], [0; 3], [0.0; 3], 0);
@@ -226,6 +246,7 @@ impl Grid {
         let rounded = Dart { offset, ..*dart };
         if self.is_within(lanes, &rounded, CERTAIN)
             || self.is_within(lanes, &rounded, POSSIBLE) && self.is_covered(point)
+            || GIVEN && self.given.cover(dart.cell, point)
         {
             return None;
         }
@@ -257,12 +278,9 @@ impl Grid {
 
     /// The parts of a voxel that no single ball certainly covers, a bit for each (see [`Level::part`]).
     #[inline(always)]
-    pub fn open_parts<L: Lanes>(&self, lanes: L, level: &Level, voxel: Voxel) -> u64 {
-        let (mut centre, mut axis) = ([0.0; 3], 0);
-        while axis < 3 {
-            centre[axis] = (f32::from(voxel.numbers[axis]) + 0.5) * level.sides[axis] - level.cell_halves[axis];
-            axis += 1;
-        }
+    pub fn open_parts<L: Lanes, const GIVEN: bool>(&self, lanes: L, level: &Level, voxel: Voxel) -> u64 {
+        let voxel = VoxelBox::new(level, voxel);
+        let VoxelBox { centre, .. } = voxel;
         let [cx, cy, cz] = splat(lanes, centre);
         let [half_x, half_y, half_z] = splat(lanes, level.halves);
         let [inner_x, inner_y, inner_z] = splat(lanes, level.inner_halves);
@@ -270,6 +288,9 @@ impl Grid {
         let [column_x, column_y] =
             [lanes.add(cx, lanes.load(&level.columns[0])), lanes.add(cy, lanes.load(&level.columns[1]))];
         let (certain, mut covered, mut page) = (lanes.splat(CERTAIN), !level.all, voxel.cell as usize);
+        if GIVEN {
+            covered |= self.given.covered_parts(lanes, level, &voxel);
+        }
         loop {
             let Page([xs, ys, zs]) = &self.pages[page];
             let x = lanes.abs(lanes.sub(lanes.load(xs), cx));
@@ -333,6 +354,11 @@ impl Grid {
         self.balls.iter().copied().filter(|&ball| touches(&points, ball, self.separation.threshold)).collect()
     }
 
+    /// The given balls that may have points of a cell, relative to the region.
+    pub fn given_near(&self, cell: u16) -> Vec<Disk<3>> {
+        self.given.near(cell)
+    }
+
     /// All balls, in the order in which they came.
     pub fn balls(&self) -> &[Centre] {
         &self.balls
@@ -374,7 +400,7 @@ mod tests {
         #[inline(always)]
         fn run<L: Lanes>(self, lanes: L) -> Self::Out {
             let Self { grid, region, radius, seed } = self;
-            grid.reset(&region, radius, Separation::new(radius));
+            grid.reset(&region, radius, Separation::new(radius), &[]);
             let mut rng = Rng::at(seed, Draw::Probe, &[]);
             let volume: f64 = (0..3).map(|axis| f64::from(region.length(axis)) / radius + 2.0).product();
             for _ in 0..(0.55 * volume) as usize {
@@ -395,13 +421,13 @@ mod tests {
             for _ in 0..300 {
                 let number = rng.below(levels.len() as u64) as usize;
                 let dart = grid.dart(&levels[number], voxel(number, &mut rng), rng.bits());
-                thrown.push((dart, grid.hit(lanes, &dart)));
+                thrown.push((dart, grid.hit::<L, false>(lanes, &dart)));
             }
             let mut looked = Vec::new();
             for _ in 0..300 {
                 let number = rng.below(levels.len().max(2) as u64 - 1) as usize;
                 let voxel = voxel(number, &mut rng);
-                looked.push((number, voxel, grid.open_parts(lanes, &levels[number], voxel)));
+                looked.push((number, voxel, grid.open_parts::<L, false>(lanes, &levels[number], voxel)));
             }
             (thrown, looked)
         }
@@ -471,7 +497,7 @@ mod tests {
     fn voxels_share_out_the_lattice_points() {
         let mut grid = Grid::default();
         for (region, radius) in regions().filter(|&(_, radius)| radius < 200.0) {
-            grid.reset(&region, radius, Separation::new(radius));
+            grid.reset(&region, radius, Separation::new(radius), &[]);
             let levels = grid.levels();
             for (number, level) in levels.iter().enumerate().take(levels.len() - 1) {
                 let mut rng = Rng::at(7, Draw::Probe, &[number as u64]);

@@ -11,22 +11,37 @@
 mod blocks;
 mod fill;
 mod grid;
+mod obstacles;
+mod ranks;
 mod search;
 mod set;
 mod voxels;
 
 use crate::error::{Error, Result};
-use crate::job::{Context, Progress};
+use crate::given::Given;
+use crate::job::{Context, Job, Progress};
+pub use crate::levels::Amount;
+use crate::levels::{self, LevelOptions, Levelled, Levels, Ranked};
+use crate::math::hypot;
 use crate::memory;
-use crate::plane::Lattice;
-use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius};
+use crate::order::{DEFAULT_QUOTIENT, Order, check_quotient};
+use crate::plane::{GivenDisks, Lattice, float_spacing};
+use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius, finest_radius};
 use crate::setters::setters;
 use crate::simd::Level;
-use crate::volume::set::Set;
+use crate::volume::set::{Sample, Set};
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
 /// before they are put to the others, and positions.
 const BYTES_PER_SAMPLE: f64 = 27.0;
+
+/// The same for samples in progressive order, of an exact count, and of both.
+const BYTES_PER_RANKED_SAMPLE: f64 = 90.0;
+const BYTES_PER_COUNTED_SAMPLE: f64 = 90.0;
+const BYTES_PER_FIRST_SAMPLE: f64 = 110.0;
+
+/// The most bytes that a given sample takes: its ball, in its bin, and both while they are sorted.
+const BYTES_PER_GIVEN: f64 = 96.0;
 
 /// The most bytes of the grid and the voxels of a block, which each thread has.
 const BYTES_PER_THREAD: f64 = (4 << 20) as f64;
@@ -37,28 +52,66 @@ const SAMPLES_PER_THREAD: f64 = 1000.0;
 /// The radii by which a bounded cuboid has as many samples as one that is longer by so much and has no boundary.
 const BEYOND: f64 = 0.7;
 
+/// The ratio of the radius within which any sample covers a cuboid to its diagonal: above 1 by more than rounding.
+const TOP: f64 = 1.001;
+
 /// The options of a set of a cuboid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Options {
+pub struct Options<'a> {
     /// The smallest centre-to-centre distance, above 0 and at least 64 float spacings at the domain's largest
-    /// coordinate. It may exceed the domain: one sample is the result.
-    pub radius: f64,
+    /// coordinate, which may exceed the domain: one sample is the result. Or the number of samples.
+    pub amount: Amount,
     /// The cuboid to sample, even one that is thinner than the radius. On a torus whose period is below the radius a
     /// sample does not conflict with its own image.
     pub domain: Domain<3>,
     /// The same options and seed give the same samples.
     pub seed: u64,
+    /// The order of the samples; by default any.
+    pub order: Order,
+    /// In progressive order, the largest ratio of the covering radius of the first samples to their rank, from
+    /// [`Order::FIRST_COUNT`] samples on: 1.02 to 1.5, by default 2^(1/8). For fewer it is up to two, or the square of
+    /// this if that is more. The smaller it is, the more levels there are, each of which takes time.
+    pub quotient: f64,
+    /// Samples that exist already, anywhere in space; on a torus they wrap. New samples are at least the clearance of each
+    /// from it, in `f64` from the floats, and every point of the domain is within the radius of a new sample or the clearance
+    /// of a given one, up to 7 float spacings at the domain's largest coordinate. Given samples are not part of the result,
+    /// and are not compared with each other. With a count they must have clearances.
+    pub given: Given<'a, 3>,
 }
 
-impl Options {
-    /// This radius on the unit torus, with seed 0.
+impl Options<'_> {
+    /// This radius on the unit torus, with seed 0, in any order and without given samples.
     pub fn new(radius: f64) -> Self {
-        Self { radius, domain: Domain::unit(Boundary::Periodic), seed: 0 }
+        Self::of(Amount::Radius(radius))
+    }
+
+    /// So many samples on the unit torus.
+    pub fn by_count(count: usize) -> Self {
+        Self::of(Amount::Count(count))
+    }
+
+    /// [`Options::new`] or [`Options::by_count`].
+    pub fn of(amount: Amount) -> Self {
+        let (domain, given) = (Domain::unit(Boundary::Periodic), Given::default());
+        Self { amount, domain, seed: 0, order: Order::Any, quotient: DEFAULT_QUOTIENT, given }
     }
 }
 
-setters!(Options { radius: f64, domain: Domain<3>, seed: u64 });
+setters!(Options<'a> { domain: Domain<3>, seed: u64, order: Order, quotient: f64, given: Given<'a, 3> });
+
+/// The report of [`sample`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Report {
+    /// No two samples are nearer: the radius of the options, or that of the set of a count.
+    pub radius: f64,
+    /// No point of the domain is farther from all samples, and outside of all given ones, up to the tolerance of [`sample`]:
+    /// the radius, or of a count up to 1.1 times it, in progressive order the quotient times it.
+    pub covering_radius: f64,
+    /// Wall time in seconds.
+    pub seconds: f64,
+}
 
 /// A maximal Poisson-disk set of a cuboid.
 ///
@@ -72,24 +125,156 @@ setters!(Options { radius: f64, domain: Domain<3>, seed: u64 });
 /// after the other; a bounded cuboid has more, as samples stand on its faces. O(n) for n samples, and the same samples for
 /// every number of threads.
 ///
+/// With [`Amount::Count`] the set has exactly so many samples, and the report has the radius and a bound of the covering
+/// radius, at most 1.1 times the radius where no samples are given and there are more than a handful.
+///
+/// In [`Order::Progressive`] the samples are sorted coarse to fine, and have [ranks](Points::ranks), the first ones infinite.
+/// For every prefix, from the first sample on: no two samples of it are nearer than the rank of its last one, and every point
+/// of the domain is within [`Options::quotient`] times this rank of a sample of it, up to 9 float spacings at the domain's
+/// largest coordinate. A set of fewer samples is a prefix of a set of more, of the same domain with the same quotient and
+/// seed, to the bit. Sets of two radii share the levels above both: all samples with a rank of at least the quotient times
+/// the larger radius.
+///
 /// # Errors
-/// [`Error::InvalidArgument`] for a radius or domain out of range or floats too coarse for the radius,
-/// [`Error::TooLarge`] above 2^32 samples or the available memory, both before any work; [`Error::Cancelled`].
-pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<Points<3>> {
-    let &Options { radius, domain, seed } = options;
+/// [`Error::InvalidArgument`] for an option out of range or floats too coarse for the radius, and for a count of 0 or of
+/// more than floats or given samples leave room for; [`Error::TooLarge`] above 2^32 samples or the available memory, both
+/// before any work; [`Error::Cancelled`].
+pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
+    let start = std::time::Instant::now();
+    let &Options { amount, domain, seed, order, quotient, given } = options;
     domain.check()?;
-    check_radius(radius)?;
-    let expected = expected_samples(&domain, radius);
-    if expected > f64::from(u32::MAX) {
-        let limit = f64::from(u32::MAX);
-        let reason = format!("{radius:?} asks for about {expected:.2e} samples, above the limit of {limit:.2e}");
-        return Err(Error::too_large("radius", reason));
+    given.check()?;
+    if order == Order::Progressive {
+        check_quotient(quotient)?;
+    }
+    let report =
+        |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: start.elapsed().as_secs_f64() };
+    let finest = finest_radius(float_spacing(domain.min.iter().chain(&domain.max)));
+    let (radius, bytes_per_sample) = match (amount, order) {
+        (Amount::Radius(radius), Order::Any) => (radius, BYTES_PER_SAMPLE),
+        (Amount::Radius(radius), Order::Progressive) => (radius, BYTES_PER_RANKED_SAMPLE),
+        (Amount::Count(count), order) => {
+            check_count(count, &given)?;
+            let bytes = if order == Order::Any { BYTES_PER_COUNTED_SAMPLE } else { BYTES_PER_FIRST_SAMPLE };
+            require(context, count as f64, bytes, &given, "count")?;
+            (finest, bytes)
+        }
+    };
+    if matches!(amount, Amount::Radius(_)) {
+        check_radius(radius)?;
+        let expected = expected_samples(&domain, radius);
+        if expected > f64::from(u32::MAX) {
+            let limit = f64::from(u32::MAX);
+            let reason = format!("{radius:?} asks for about {expected:.2e} samples, above the limit of {limit:.2e}");
+            return Err(Error::too_large("radius", reason));
+        }
+        // Before the memory: the radius that floats allow.
+        Lattice::of_any_size(&domain, radius)?;
+        require(context, expected, bytes_per_sample, &given, "radius")?;
     }
     let lattice = Lattice::of_any_size(&domain, radius)?;
-    let threads = (context.num_threads() as f64).min(expected / SAMPLES_PER_THREAD);
-    let bytes = expected * BYTES_PER_SAMPLE + threads * BYTES_PER_THREAD;
-    memory::require(bytes, "radius", &format!("about {expected:.0} samples"))?;
-    context.run(progress, |job| Set::new(job, &lattice, seed, Level::widest())).map(|set| set.into_positions().into())
+    if let (Amount::Radius(radius), Order::Any) = (amount, order) {
+        let given = GivenDisks::new(&domain, &lattice, radius, &given);
+        let set = context.run(progress, |job| Set::new(job, &lattice, &given, seed, Level::widest()))?;
+        let points = set.into_positions().into();
+        return Ok((points, report(radius, radius)));
+    }
+    let cuboid = Cuboid {
+        has_given: !given.positions.is_empty(),
+        given: GivenDisks::new(&domain, &lattice, radius, &given),
+        domain,
+        lattice: &lattice,
+    };
+    let levels = Levels::new(cuboid, seed);
+    let found = context.run(progress, |job| match (amount, order) {
+        (Amount::Radius(radius), _) => levels::by_radius(job, levels, quotient, radius),
+        (Amount::Count(count), Order::Progressive) => levels::by_count(job, levels, quotient, count, finest),
+        (Amount::Count(count), Order::Any) => levels::exactly(job, levels, count, finest),
+    })?;
+    let mut points =
+        Points::from(found.samples.iter().map(|sample| lattice.position(sample.point)).collect::<Vec<_>>());
+    if order == Order::Progressive {
+        points.ranks = found.samples.iter().map(|sample| sample.rank).collect();
+    }
+    Ok((points, report(found.radius, found.covering_radius)))
+}
+
+/// Refuses a count that is 0 or cannot be indexed, and given samples without clearances beside it.
+fn check_count(count: usize, given: &Given<3>) -> Result<()> {
+    if count == 0 {
+        return Err(Error::invalid("count", "0 is not at least 1"));
+    }
+    if count > u32::MAX as usize {
+        return Err(Error::too_large("count", format!("{count}; the limit is {}", u32::MAX)));
+    }
+    if !given.positions.is_empty() && given.clearances.is_none() {
+        return Err(Error::invalid("given_clearances", "are required with a count, as no radius stands for them"));
+    }
+    Ok(())
+}
+
+/// Refuses more samples than can be held beside given ones.
+fn require(context: &Context, samples: f64, bytes: f64, given: &Given<3>, argument: &'static str) -> Result<()> {
+    let threads = (context.num_threads() as f64).min(samples / SAMPLES_PER_THREAD);
+    let bytes = samples * bytes + threads * BYTES_PER_THREAD + given.positions.len() as f64 * BYTES_PER_GIVEN;
+    memory::require(bytes, argument, &format!("about {samples:.0} samples"))
+}
+
+/// A cuboid that is filled level by level.
+struct Cuboid<'a> {
+    domain: Domain<3>,
+    /// Of any radius.
+    lattice: &'a Lattice<3>,
+    given: GivenDisks<3>,
+    has_given: bool,
+}
+
+impl Ranked for Sample {
+    type Place = [i32; 3];
+
+    fn rank(&self) -> f32 {
+        self.rank
+    }
+
+    fn place(&self) -> [i32; 3] {
+        self.point
+    }
+}
+
+impl Levelled for Cuboid<'_> {
+    type Sample = Sample;
+
+    const DIMENSION: u32 = 3;
+
+    const NAMES: [&'static str; 2] = ["domain", "domain"];
+
+    fn top(&self) -> f64 {
+        let [x, y, z] = self.domain.extent();
+        TOP * hypot(hypot(x, y), z)
+    }
+
+    fn expected(&self, radius: f64) -> f64 {
+        expected_samples(&self.domain, radius)
+    }
+
+    fn check_work(&self, radius: f64, count: usize) -> Result<()> {
+        let expected = self.expected(radius);
+        if !self.has_given || expected <= f64::from(u32::MAX) {
+            return Ok(());
+        }
+        let reason = format!("{count} samples beside the given ones: on the whole domain about {expected:.3e} samples");
+        Err(Error::too_large("count", reason))
+    }
+
+    fn fill(&self, job: &Job, options: LevelOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
+        let lattice = self.lattice.with_radius(radius);
+        let added = Set::added(job, &lattice, &self.given, options, samples)?;
+        let mut all = Vec::with_capacity(samples.len() + added.len());
+        all.extend_from_slice(samples);
+        all.extend(added);
+        // Darts are not counted.
+        Ok((all, 0))
+    }
 }
 
 /// The approximate number of samples; at least one.
@@ -105,7 +290,7 @@ mod tests {
 
     fn count(radius: f64, size: [f64; 3], boundary: Boundary) -> (f64, f64) {
         let options = Options::new(radius).domain(Domain { min: [0.0; 3], max: size, boundary });
-        let samples = sample(&Context::new(1).unwrap(), &options, None).unwrap();
+        let (samples, _) = sample(&Context::new(1).unwrap(), &options, None).unwrap();
         (samples.len() as f64, expected_samples(&options.domain, radius))
     }
 

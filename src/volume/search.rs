@@ -1,6 +1,6 @@
 //! The exact end of a fill: a lattice point that no ball covers, by halving a box of integers.
 
-use crate::plane::Rect;
+use crate::plane::{Disk, Rect};
 
 /// A ball by its centre, a lattice point.
 pub type Centre = [i32; 3];
@@ -26,13 +26,17 @@ fn covers(points: &Rect<3>, ball: Centre, threshold: i64) -> bool {
     square(ball, farthest) < threshold
 }
 
-/// A lattice point of a box whose squared distance from all balls is at least the threshold, if there is one.
-pub fn open_point(points: &Rect<3>, balls: &[Centre], threshold: i64) -> Option<Centre> {
-    if points.is_empty() || balls.iter().any(|&ball| covers(points, ball, threshold)) {
+/// A lattice point of a box whose squared distance from all balls is at least the threshold and that lies in no given ball,
+/// if there is one.
+pub fn open_point(points: &Rect<3>, balls: &[Centre], threshold: i64, given: &[Disk<3>]) -> Option<Centre> {
+    let is_covered =
+        || balls.iter().any(|&ball| covers(points, ball, threshold)) || given.iter().any(|ball| ball.covers(points));
+    if points.is_empty() || is_covered() {
         return None;
     }
     let touching: Vec<_> = balls.iter().copied().filter(|&ball| touches(points, ball, threshold)).collect();
-    if touching.is_empty() {
+    let given: Vec<_> = given.iter().copied().filter(|ball| ball.meets(points)).collect();
+    if touching.is_empty() && given.is_empty() {
         return Some(points.min);
     }
     // A box of one point is covered by every ball that touches it: there are two points at least.
@@ -40,7 +44,7 @@ pub fn open_point(points: &Rect<3>, balls: &[Centre], threshold: i64) -> Option<
     let middle = points.min[axis] + points.length(axis) / 2;
     let mut halves = [*points; 2];
     (halves[0].max[axis], halves[1].min[axis]) = (middle, middle);
-    halves.iter().find_map(|half| open_point(half, &touching, threshold))
+    halves.iter().find_map(|half| open_point(half, &touching, threshold, &given))
 }
 
 #[cfg(test)]
@@ -70,7 +74,7 @@ mod tests {
             let ball = |rng: &mut Rng| std::array::from_fn(|axis| min[axis] - 5 + rng.below(18) as i32);
             let balls: Vec<_> = (0..case % 40).map(|_| ball(&mut rng)).collect();
             let is_open = |point: &Centre| balls.iter().all(|&ball| square(ball, *point) >= threshold);
-            match open_point(&points, &balls, threshold) {
+            match open_point(&points, &balls, threshold, &[]) {
                 Some(point) => {
                     assert!(points.contains(point) && is_open(&point));
                     found += 1;

@@ -3,58 +3,124 @@
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::Result;
-use crate::job::Job;
-use crate::plane::{Lattice, Rect};
+use crate::job::{Job, chunks_of};
+use crate::levels::LevelOptions;
+use crate::plane::{GivenDisks, Lattice, Rect};
 use crate::rng::{Draw, Rng};
 use crate::simd::{self, Level};
-use crate::volume::blocks::Blocks;
+use crate::volume::blocks::{Blocks, REACH};
 use crate::volume::fill::{Fill, Pass};
 use crate::volume::grid::Grid;
+use crate::volume::ranks;
 use crate::volume::search::Centre;
+
+/// The samples that one task assigns to blocks, and the share of a level that this takes.
+const SAMPLES_PER_TASK: usize = 1 << 14;
+const SORTING: f64 = 0.05;
+
+/// A sample of a level.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    pub point: Centre,
+    /// The distance to the nearest sample that was there when it was put there (`levels.rs`).
+    pub rank: f32,
+}
 
 /// The samples of a cuboid as lattice points, by their blocks.
 pub struct Set<'a> {
     lattice: &'a Lattice<3>,
+    given: &'a GivenDisks<3>,
     blocks: Blocks,
     samples: Vec<Vec<Centre>>,
+    /// The number of samples of each block that were there at first.
+    known: Vec<usize>,
+    /// The largest rank, and the ranks of the samples that were added to each block, if they get any.
+    largest_rank: Option<f64>,
+    ranks: Vec<Vec<f32>>,
     /// Grids that no thread uses now.
     grids: Mutex<Vec<Grid>>,
     level: Level,
 }
 
 impl<'a> Set<'a> {
-    /// A maximal set, by instructions of some level.
-    ///
-    /// Both passes go over all blocks. The first brings three quarters of the samples, with rivals around each block, so
-    /// that the faces of blocks leave few traces (docs/design/volume.md). Rivals in the last pass would leave gaps: what a
-    /// dropped sample covers would be open.
-    pub fn new(job: &Job, lattice: &'a Lattice<3>, seed: u64, level: Level) -> Result<Self> {
-        let blocks = Blocks::new(lattice, seed);
-        let (count, mut done) = (blocks.leaves.len(), 0);
-        let mut set = Self { lattice, blocks, samples: vec![Vec::new(); count], grids: Mutex::default(), level };
-        let share = |done: usize| done as f64 / (Pass::ALL.len() * count) as f64;
-        for pass in Pass::ALL {
-            for number in 0..set.blocks.waves.len() {
-                let wave = &set.blocks.waves[number];
-                let part = job.part(share(done), share(done + wave.len()));
-                let added = part.map(wave.len(), |index| set.fill(wave[index], pass))?;
-                done += wave.len();
-                for (&block, added) in wave.iter().zip(added) {
-                    let samples = &mut set.samples[block as usize];
-                    samples.reserve_exact(added.len());
-                    samples.extend(added);
-                }
-            }
-        }
+    /// A maximal set around given balls, by instructions of some level.
+    pub fn new(job: &Job, lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64, level: Level) -> Result<Self> {
+        let mut set = Self::empty(lattice, given, seed, level);
+        set.fill(job, Pass::ALL)?;
         Ok(set)
     }
 
-    /// The new samples of one pass over a block, which depend only on its place and on the samples around it.
-    fn fill(&self, block: u32, pass: Pass) -> Vec<Centre> {
+    /// What a fill adds to samples of a larger radius: a level, with ranks up to the largest one.
+    pub fn added(
+        job: &Job,
+        lattice: &'a Lattice<3>,
+        given: &'a GivenDisks<3>,
+        options: LevelOptions,
+        before: &[Sample],
+    ) -> Result<Vec<Sample>> {
+        let LevelOptions { seed, throws_first, largest_rank } = options;
+        let mut set = Self { largest_rank, ..Self::empty(lattice, given, seed, Level::widest()) };
+        let chunks = chunks_of(before.len(), SAMPLES_PER_TASK);
+        let blocks = job.part(0.0, SORTING).flat_map(chunks.len(), |chunk| {
+            chunks.range(chunk).map(|index| set.blocks.holding(before[index].point)).collect()
+        })?;
+        for (sample, block) in before.iter().zip(blocks) {
+            set.samples[block as usize].push(sample.point);
+        }
+        set.known = set.samples.iter().map(Vec::len).collect();
+        set.fill(&job.part(SORTING, 1.0), if throws_first { Pass::ALL } else { Pass::LAST })?;
+
+        let mut added = Vec::new();
+        for ((samples, &known), ranks) in set.samples.iter().zip(&set.known).zip(&set.ranks) {
+            let ranks = ranks.iter().copied().chain(std::iter::repeat(f32::INFINITY));
+            added.extend(samples[known..].iter().zip(ranks).map(|(&point, rank)| Sample { point, rank }));
+        }
+        Ok(added)
+    }
+
+    fn empty(lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64, level: Level) -> Self {
+        let blocks = Blocks::new(lattice, seed);
+        let count = blocks.leaves.len();
+        let (samples, ranks) = (vec![Vec::new(); count], vec![Vec::new(); count]);
+        let (known, grids) = (vec![0; count], Mutex::default());
+        Self { lattice, given, blocks, samples, known, largest_rank: None, ranks, grids, level }
+    }
+
+    /// Adds samples until the set is maximal.
+    ///
+    /// Each pass goes over all blocks. The first brings three quarters of the samples, with rivals around each block, so
+    /// that the faces of blocks leave few traces (docs/design/volume.md). Rivals in the last pass would leave gaps: what a
+    /// dropped sample covers would be open.
+    fn fill(&mut self, job: &Job, passes: &[Pass]) -> Result<()> {
+        let (count, mut done) = (self.blocks.leaves.len(), 0);
+        let share = |done: usize| done as f64 / (passes.len() * count) as f64;
+        for &pass in passes {
+            for number in 0..self.blocks.waves.len() {
+                let wave = &self.blocks.waves[number];
+                let part = job.part(share(done), share(done + wave.len()));
+                let added = part.map(wave.len(), |index| self.fill_block(wave[index], pass))?;
+                done += wave.len();
+                for (&block, (added, ranks)) in wave.iter().zip(added) {
+                    let samples = &mut self.samples[block as usize];
+                    samples.reserve_exact(added.len());
+                    samples.extend(added);
+                    self.ranks[block as usize].extend(ranks);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The new samples of one pass over a block, which depend only on its place and on the samples around it, and their ranks.
+    fn fill_block(&self, block: u32, pass: Pass) -> (Vec<Centre>, Vec<f32>) {
         let Self { lattice, blocks, .. } = self;
         let leaf = &blocks.leaves[block as usize];
         let region = blocks.region(lattice, &leaf.rect, pass);
-        let around = self.around(block, &region.grown(lattice.separation.reach + 1));
+        let mut window = region.grown(lattice.separation.reach + 1);
+        if self.largest_rank.is_some() {
+            window = window.hull(&leaf.rect.grown((REACH * lattice.radius).ceil() as i32 + 1));
+        }
+        let around = self.around(block, &window);
         let grids = || self.grids.lock().unwrap_or_else(PoisonError::into_inner);
         let mut grid = grids().pop().unwrap_or_default();
         let fill = Fill {
@@ -65,12 +131,16 @@ impl<'a> Set<'a> {
             radius: lattice.radius,
             separation: lattice.separation,
             around: &around,
+            given: &self.given.near(&region),
             images: &blocks.images,
             rng: Rng::at(leaf.key, Draw::Volume, &[pass as u64]),
         };
         let added = simd::run(self.level, fill);
         grids().push(grid);
-        added
+        let ranks = self
+            .largest_rank
+            .map(|largest| ranks::up_to(largest, lattice, &leaf.rect, &around, &added, &blocks.images));
+        (added, ranks.unwrap_or_default())
     }
 
     /// The samples of a block, and those of its neighbours in a window, with all images that matter.
@@ -109,7 +179,8 @@ mod tests {
 
     fn positions(lattice: &Lattice<3>, seed: u64, level: Level) -> Vec<Centre> {
         let context = Context::new(1).unwrap();
-        let set = context.run(None, |job| Set::new(job, lattice, seed, level)).unwrap();
+        let given = GivenDisks::default();
+        let set = context.run(None, |job| Set::new(job, lattice, &given, seed, level)).unwrap();
         set.samples.into_iter().flatten().collect()
     }
 

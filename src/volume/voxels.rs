@@ -29,6 +29,26 @@ impl Voxel {
     }
 }
 
+/// The place of a voxel.
+pub struct VoxelBox {
+    pub cell: u16,
+    /// The vector from the cell's centre to the voxel's, in radii.
+    pub centre: [f32; 3],
+}
+
+impl VoxelBox {
+    /// The place of a voxel of a level.
+    #[inline(always)]
+    pub fn new(level: &Level, voxel: Voxel) -> Self {
+        let (mut centre, mut axis) = ([0.0; 3], 0);
+        while axis < 3 {
+            centre[axis] = (f32::from(voxel.numbers[axis]) + 0.5) * level.sides[axis] - level.cell_halves[axis];
+            axis += 1;
+        }
+        Self { cell: voxel.cell, centre }
+    }
+}
+
 /// The voxels of one size. Lengths are in radii.
 pub struct Level {
     /// The voxels of a cell along each axis.

@@ -61,3 +61,5 @@ mod thin;
 #[cfg(feature = "embree")]
 mod traces;
 mod volume;
+mod volume_given;
+mod volume_order;

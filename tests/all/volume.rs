@@ -14,7 +14,7 @@ fn cuboid(min: [f64; 3], max: [f64; 3], boundary: Boundary) -> Domain<3> {
 }
 
 fn samples(domain: Domain<3>, radius: f64, seed: u64) -> Vec<[f32; 3]> {
-    sample(&Context::new(1).unwrap(), &Options::new(radius).domain(domain).seed(seed), None).unwrap().positions
+    sample(&Context::new(1).unwrap(), &Options::new(radius).domain(domain).seed(seed), None).unwrap().0.positions
 }
 
 /// Cuboids with all that makes arithmetic hard, with radii for some hundred samples.
@@ -112,7 +112,7 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
         for threads in [2, 3] {
             let several = Context::new(threads).unwrap();
             let found = sample(&several, &Options::new(0.06).domain(domain).seed(1), None).unwrap();
-            assert_eq!(first, found.positions);
+            assert_eq!(first, found.0.positions);
         }
     }
 }

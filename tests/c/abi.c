@@ -94,7 +94,7 @@ FIELD(azulejo_classes_report, samples, 8);
 FIELD(azulejo_classes_report, counts, 16);
 FIELD(azulejo_classes_report, seconds, 144);
 
-SIZE(azulejo_volume_options, 88);
+SIZE(azulejo_volume_options, 136);
 FIELD(azulejo_volume_options, struct_size, 0);
 FIELD(azulejo_volume_options, boundary, 4);
 FIELD(azulejo_volume_options, radius, 8);
@@ -103,13 +103,21 @@ FIELD(azulejo_volume_options, domain_max, 40);
 FIELD(azulejo_volume_options, seed, 64);
 FIELD(azulejo_volume_options, progress, 72);
 FIELD(azulejo_volume_options, progress_user, 80);
+FIELD(azulejo_volume_options, count, 88);
+FIELD(azulejo_volume_options, order, 96);
+FIELD(azulejo_volume_options, reserved, 100);
+FIELD(azulejo_volume_options, quotient, 104);
+FIELD(azulejo_volume_options, given_positions, 112);
+FIELD(azulejo_volume_options, given_clearances, 120);
+FIELD(azulejo_volume_options, given_count, 128);
 
-SIZE(azulejo_volume_report, 32);
+SIZE(azulejo_volume_report, 40);
 FIELD(azulejo_volume_report, struct_size, 0);
 FIELD(azulejo_volume_report, reserved, 4);
 FIELD(azulejo_volume_report, samples, 8);
 FIELD(azulejo_volume_report, radius, 16);
 FIELD(azulejo_volume_report, seconds, 24);
+FIELD(azulejo_volume_report, covering_radius, 32);
 
 SIZE(azulejo_thin_report, 32);
 FIELD(azulejo_thin_report, struct_size, 0);

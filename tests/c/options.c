@@ -91,6 +91,8 @@ static void defaults(void) {
     CHECK(volume.struct_size == sizeof volume && volume.boundary == AZULEJO_BOUNDARY_PERIODIC && volume.radius == 0);
     CHECK(volume.domain_min[0] == 0 && volume.domain_min[2] == 0 && volume.domain_max[0] == 1 && volume.domain_max[2] == 1);
     CHECK(volume.seed == 0 && volume.progress == NULL && volume.progress_user == NULL);
+    CHECK(volume.count == 0 && volume.order == AZULEJO_ORDER_ANY && volume.reserved == 0 && volume.quotient == 0);
+    CHECK(volume.given_positions == NULL && volume.given_clearances == NULL && volume.given_count == 0);
 }
 
 static void refused_inits(void) {

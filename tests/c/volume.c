@@ -77,6 +77,47 @@ static void fills(uint32_t boundary) {
     azulejo_points_free(points);
 }
 
+/* Around a given sample, in order, and a count: distances, ranks and the report. */
+static void around_in_order_and_counted(uint32_t boundary) {
+    const float centre[3] = {0.5f, 0.5f, 0.9f};
+    const double clearance = 0.3, place[3] = {0.5, 0.5, 0.9f};
+    azulejo_volume_options o = volume_options(0.11);
+    azulejo_volume_report report;
+    azulejo_points *points = NULL;
+    size_t i;
+    o.boundary = boundary;
+    o.given_positions = centre;
+    o.given_clearances = &clearance;
+    o.given_count = 1;
+    o.order = AZULEJO_ORDER_PROGRESSIVE;
+    o.quotient = 1.25;
+    ACCEPTED(azulejo_volume_report_init(&report, sizeof report));
+    if (!ACCEPTED(azulejo_volume_sample(one, &o, &points, &report))) return;
+    CHECK(report.samples > 300 && report.radius == 0.11 && report.covering_radius == 0.11);
+    for (i = 1; i < report.samples; i++) {
+        const float *p = azulejo_points_positions(points) + 3 * i, *ranks = azulejo_points_ranks(points);
+        const double here[3] = {p[0], p[1], p[2]};
+        CHECK(ranks[i] <= ranks[i - 1] && nearest(&o, azulejo_points_positions(points), 0, i, here) >= ranks[i]);
+        CHECK(distance(&o, p, place) >= clearance);
+    }
+    azulejo_points_free(points);
+    o.radius = 0;
+    o.count = 500;
+    o.order = AZULEJO_ORDER_ANY;
+    o.quotient = 0;
+    points = NULL;
+    if (!ACCEPTED(azulejo_volume_sample(one, &o, &points, &report))) return;
+    CHECK(report.samples == 500 && azulejo_points_count(points) == 500 && azulejo_points_ranks(points) == NULL);
+    CHECK(report.radius > 0 && report.covering_radius >= report.radius && report.covering_radius < 1.2 * report.radius);
+    for (i = 0; i < 500; i++) {
+        const float *p = azulejo_points_positions(points) + 3 * i;
+        const double here[3] = {p[0], p[1], p[2]};
+        CHECK(nearest(&o, azulejo_points_positions(points), i + 1, 500, here) >= report.radius);
+        CHECK(distance(&o, p, place) >= clearance);
+    }
+    azulejo_points_free(points);
+}
+
 static void refused(void) {
     const azulejo_volume_options good = volume_options(0.2);
     azulejo_volume_options bad = good;
@@ -104,6 +145,18 @@ static void refused(void) {
     bad.domain_max[0] = 1e7 + 1;
     REFUSED(INVALID, "radius: 0.2 is below 64.0", azulejo_volume_sample(one, &bad, &out, NULL));
     bad = good;
+    bad.count = 5;
+    REFUSED(INVALID, "radius: 0.2 has no effect beside a count", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.quotient = 1.2;
+    REFUSED(INVALID, "quotient: 1.2 has no effect in any order", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad.order = AZULEJO_ORDER_PROGRESSIVE;
+    bad.quotient = 2;
+    REFUSED(INVALID, "quotient: 2.0 is not in", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.given_count = 1;
+    REFUSED(INVALID, "given_positions", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
     bad.struct_size = 8;
     REFUSED(INVALID, "struct_size", azulejo_volume_sample(one, &bad, &out, NULL));
     CHECK(out == UNTOUCHED);
@@ -114,6 +167,8 @@ int main(void) {
     three = make_context(3);
     fills(AZULEJO_BOUNDARY_PERIODIC);
     fills(AZULEJO_BOUNDARY_BOUNDED);
+    around_in_order_and_counted(AZULEJO_BOUNDARY_PERIODIC);
+    around_in_order_and_counted(AZULEJO_BOUNDARY_BOUNDED);
     refused();
     azulejo_context_free(one);
     azulejo_context_free(three);

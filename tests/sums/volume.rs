@@ -1,7 +1,7 @@
 //! Sets of cuboids.
 
 use azulejo::volume::{Options, sample};
-use azulejo::{Boundary, Context, Domain, Result};
+use azulejo::{Boundary, Context, Domain, Given, Order, Result};
 
 use super::list::List;
 
@@ -23,7 +23,28 @@ const CUBOIDS: [(&str, Domain<3>, f64); 6] = [
 pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
     for (seed, (name, domain, radius)) in (71..).zip(CUBOIDS) {
         let radius = if is_small { 3.0 * radius } else { radius };
-        list.samples(name, &sample(context, &Options::new(radius).domain(domain).seed(seed), None)?);
+        list.samples(name, &sample(context, &Options::new(radius).domain(domain).seed(seed), None)?.0);
+    }
+    let radius = if is_small { 0.1 } else { 0.04 };
+    let positions: Vec<[f32; 3]> =
+        (0..60u8).map(|i| [31, 47, 83].map(|step| f32::from(i.wrapping_mul(step)) / 256.0)).collect();
+    let clearances: Vec<f64> = (0..60).map(|i| 0.3 / [1.0, 7.0, 60.0, 1000.0][i % 4]).collect();
+    for (place, boundary) in [("torus", Boundary::Periodic), ("cube", Boundary::Bounded)] {
+        let domain = Domain::unit(boundary);
+        let free = Options::new(radius).domain(domain).seed(81);
+        let given = Given::with_clearances(&positions, &clearances);
+        let count = Options::by_count(if is_small { 300 } else { 5_000 }).domain(domain).seed(82);
+        for (name, options) in [
+            ("given", free.given(given)),
+            ("given alike", free.given(Given::at(&positions))),
+            ("progressive", free.order(Order::Progressive)),
+            ("progressive, given", free.order(Order::Progressive).quotient(1.3).given(given)),
+            ("count", count),
+            ("count, progressive", count.order(Order::Progressive)),
+            ("count, given", count.given(given)),
+        ] {
+            list.samples(&format!("volume {place}, {name}"), &sample(context, &options, None)?.0);
+        }
     }
     Ok(())
 }

@@ -1,15 +1,16 @@
 //! Maximal sets of cuboids.
 
 use std::ffi::c_void;
-use std::time::Instant;
 
-use azulejo_core::volume;
+use azulejo_core::{Order, volume};
 
-use crate::boundary::Out;
+use crate::boundary::{Out, check_unused};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
+use crate::given::given;
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles;
+use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
@@ -22,7 +23,8 @@ pub struct azulejo_volume_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// Above 0, and at least 64 float spacings; it may exceed the domain. It has no default.
+    /// Above 0, and at least 64 float spacings; it may exceed the domain. It has no default; with a
+    /// `count` it must be 0.
     pub radius: f64,
     /// The lower corner of the domain, x y z; default 0 0 0.
     pub domain_min: [f64; 3],
@@ -35,6 +37,26 @@ pub struct azulejo_volume_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
+    /// The exact number of samples; default 0: as many as the radius gives.
+    pub count: usize,
+    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
+    /// well spread, and azulejo_points_ranks says how well.
+    pub order: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Of a progressive order: how many times longer the radius of each level is than that of the
+    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8).
+    pub quotient: f64,
+    /// Samples that stand already, x y z each, anywhere; on a torus they wrap. NULL, the default,
+    /// for none. They are never moved, dropped or compared with each other, and are not returned:
+    /// new samples are at least the clearance from each of them, and every place of the domain is
+    /// within the radius of a new sample or within the clearance of a given one.
+    pub given_positions: *const f32,
+    /// The clearance of each, 0 or more; 0 has no effect. NULL, the default: all have the radius of
+    /// the set, which with a `count` is refused.
+    pub given_clearances: *const f64,
+    /// The number of given samples; default 0.
+    pub given_count: usize,
 }
 
 growing!(azulejo_volume_options requires radius {
@@ -45,6 +67,13 @@ growing!(azulejo_volume_options requires radius {
     seed: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    count: 0,
+    order: AZULEJO_ORDER_ANY,
+    reserved: 0,
+    quotient: 0.0,
+    given_positions: std::ptr::null(),
+    given_clearances: std::ptr::null(),
+    given_count: 0,
 });
 
 /// Writes the defaults.
@@ -67,13 +96,16 @@ pub struct azulejo_volume_report {
     pub reserved: u32,
     /// The number of samples.
     pub samples: u64,
-    /// The radius of the set.
+    /// No two samples are nearer: the radius, also that of the set of a count.
     pub radius: f64,
     /// Wall time in seconds.
     pub seconds: f64,
+    /// No place of the domain is farther from all samples and outside of all given ones, up to
+    /// the tolerance: the radius, with a count mostly up to 1.1 times it.
+    pub covering_radius: f64,
 }
 
-growing!(azulejo_volume_report requires samples { reserved: 0, samples: 0, radius: 0.0, seconds: 0.0 });
+growing!(azulejo_volume_report requires samples { reserved: 0, samples: 0, radius: 0.0, seconds: 0.0, covering_radius: 0.0 });
 
 /// Writes zeros and the size.
 #[unsafe(no_mangle)]
@@ -86,9 +118,26 @@ pub unsafe extern "C" fn azulejo_volume_report_init(
 }
 
 impl azulejo_volume_options {
-    fn request(&self) -> Result<volume::Options, Failure> {
+    /// # Safety
+    /// As [`given`] for the given samples.
+    unsafe fn request<'a>(&self) -> Result<volume::Options<'a>, Failure> {
         let domain = domain(self.domain_min, self.domain_max, self.boundary)?;
-        Ok(volume::Options::new(self.radius).domain(domain).seed(self.seed))
+        let order = order(self.order)?;
+        if order == Order::Any {
+            check_unused("quotient", self.quotient, 0.0, "in any order")?;
+        }
+        check_unused("reserved", self.reserved, 0, "here")?;
+        let options = match self.count {
+            0 => volume::Options::new(self.radius),
+            count => {
+                check_unused("radius", self.radius, 0.0, "beside a count")?;
+                volume::Options::by_count(count)
+            }
+        };
+        // SAFETY: handed on from the caller.
+        let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
+        let quotient = if self.quotient == 0.0 { options.quotient } else { self.quotient };
+        Ok(options.domain(domain).seed(self.seed).order(order).quotient(quotient).given(given))
     }
 }
 
@@ -97,6 +146,9 @@ impl azulejo_volume_options {
 /// radius^3 samples, up to 0.3 % more than by darts that are thrown one after the other; a bounded
 /// cuboid has more, since samples stand on its faces. If a period of a torus is below the radius, a
 /// sample does not conflict with its own image. Samples are sorted by blocks of 9 to 18 radii.
+///
+/// With a `count`, in progressive order or around given samples see the options; around given
+/// samples the tolerance is 7 float spacings, in progressive order 9.
 ///
 /// O(samples) time and memory. Source: M. S. Ebeida et al., A Simple Algorithm for Maximal
 /// Poisson-Disk Sampling in High Dimensions, 2012.
@@ -115,15 +167,16 @@ pub unsafe extern "C" fn azulejo_volume_sample(
         // SAFETY: handed on from the caller.
         let (options, report): (azulejo_volume_options, _) =
             unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
-        let start = Instant::now();
-        let request = options.request()?;
+        // SAFETY: handed on from the caller.
+        let request = unsafe { options.request() }?;
         let watch = Watch::new(options.progress, options.progress_user);
-        let samples = context.run(watch, |context, progress| volume::sample(context, &request, progress))?;
+        let (samples, made) = context.run(watch, |context, progress| volume::sample(context, &request, progress))?;
         if let Some(report) = report {
             report.write(azulejo_volume_report {
                 samples: samples.len() as u64,
-                radius: options.radius,
-                seconds: start.elapsed().as_secs_f64(),
+                radius: made.radius,
+                seconds: made.seconds,
+                covering_radius: made.covering_radius,
                 ..azulejo_volume_report::DEFAULT
             });
         }
@@ -138,6 +191,7 @@ mod tests {
     #[test]
     fn the_defaults_are_those_of_the_core() {
         let options = azulejo_volume_options { radius: 0.3, ..azulejo_volume_options::DEFAULT };
-        assert_eq!(options.request().unwrap(), volume::Options::new(0.3));
+        // SAFETY: there are no given samples.
+        assert_eq!(unsafe { options.request() }.unwrap(), volume::Options::new(0.3));
     }
 }

@@ -237,6 +237,11 @@ fn planes() {
 
         let mut options = defaults(azulejo_volume_options_init);
         options.radius = 0.7;
+        let (xyz, clearance) = ([0.5f32; 3], 0.4f64);
+        (options.given_positions, options.given_clearances) = (xyz.as_ptr(), &raw const clearance);
+        options.given_count = 1;
+        read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
+        (options.radius, options.count, options.order) = (0.0, 3, AZULEJO_ORDER_PROGRESSIVE);
         read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
 
         let mut options = defaults(azulejo_kdrt_merge_options_init);

@@ -19,7 +19,7 @@ use crate::psp::adaptive::site::{GradedSurface, OneKind, fill_octaves};
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
 use crate::psp::given::{Obstacles, require_clearances};
-use crate::psp::levels::{self, Levelled, LevelledSet, Levels, Ranked, top};
+use crate::psp::levels::{self, LevelOptions, Levelled, LevelledSet, Levels, NAMES, SurfaceSample, check_work, top};
 use crate::psp::report::Report;
 use crate::psp::set::Sample;
 
@@ -107,7 +107,7 @@ pub fn sample(
         };
         let surface = ScaledSurface { mesh, field, facing, obstacles, triangles, last, estimate };
         if !is_ordered {
-            let (samples, darts) = surface.fill(job, FillOptions::from_nothing(options.seed), last, &[])?;
+            let (samples, darts) = surface.complete(job, FillOptions::from_nothing(options.seed), last, &[])?;
             return Ok(LevelledSet { samples, radius: last, covering_radius: last, darts });
         }
         let (job, levels) = (&job.part(0.06, 1.0), Levels::new(surface, options.seed));
@@ -152,7 +152,7 @@ struct ScaledSurface<'a> {
     estimate: f64,
 }
 
-impl Ranked for (Sample, f64) {
+impl SurfaceSample for (Sample, f64) {
     fn sample(&self) -> &Sample {
         &self.0
     }
@@ -162,8 +162,30 @@ impl Ranked for (Sample, f64) {
     }
 }
 
+impl ScaledSurface<'_> {
+    /// The samples with those that a fill at this scale adds, and the number of darts.
+    fn complete(
+        &self,
+        job: &Job,
+        options: FillOptions,
+        scale: f64,
+        samples: &[(Sample, f64)],
+    ) -> Result<(Vec<(Sample, f64)>, u64)> {
+        let &Self { mesh, facing, obstacles, ref triangles, last, estimate, .. } = self;
+        let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
+        let surface = GradedSurface { mesh, field, quota, facing, triangles, finest: last };
+        let site = OneKind { surface, obstacles, largest_rank: options.largest_rank };
+        let (set, darts) = fill_octaves(job, &site, options, samples)?;
+        Ok((set.into_samples(), darts))
+    }
+}
+
 impl Levelled for ScaledSurface<'_> {
     type Sample = (Sample, f64);
+
+    const DIMENSION: u32 = 2;
+
+    const NAMES: [&'static str; 2] = NAMES;
 
     fn top(&self) -> f64 {
         top(self.mesh) / self.field.least()
@@ -173,22 +195,17 @@ impl Levelled for ScaledSurface<'_> {
         self.estimate * square(self.last / scale)
     }
 
-    fn has_given(&self) -> bool {
-        !self.obstacles.is_empty()
+    fn check_work(&self, scale: f64, count: usize) -> Result<()> {
+        check_work(!self.obstacles.is_empty(), self.expected(scale), count)
     }
 
     fn fill(
         &self,
         job: &Job,
-        options: FillOptions,
+        options: LevelOptions,
         scale: f64,
         samples: &[Self::Sample],
     ) -> Result<(Vec<Self::Sample>, u64)> {
-        let &Self { mesh, facing, obstacles, ref triangles, last, estimate, .. } = self;
-        let (field, quota) = (&self.field.at_scale(scale), &Quota::new(self.expected(scale).max(estimate), mesh));
-        let surface = GradedSurface { mesh, field, quota, facing, triangles, finest: last };
-        let site = OneKind { surface, obstacles, largest_rank: options.largest_rank };
-        let (set, darts) = fill_octaves(job, &site, options, samples)?;
-        Ok((set.into_samples(), darts))
+        self.complete(job, FillOptions::of_level(options), scale, samples)
     }
 }

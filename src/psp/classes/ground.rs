@@ -13,7 +13,7 @@ use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Classed, Group, Places};
 use crate::psp::fill::{GROUP, Ground, Layer, Open, Patch, Point, Whole};
 use crate::psp::fragment::Fragment;
-use crate::psp::levels::Ranked;
+use crate::psp::levels::SurfaceSample;
 use crate::psp::set::Sample;
 
 /// The surface with the samples of all classes.
@@ -30,7 +30,7 @@ pub struct ClassGround<'a, G: Layer> {
     darts: u64,
 }
 
-impl<'a, G: Layer<Sample: Ranked + Copy>> ClassGround<'a, G> {
+impl<'a, G: Layer<Sample: SurfaceSample + Copy>> ClassGround<'a, G> {
     /// The surface without samples, given the grounds of the layers of a group.
     pub fn new<R>(group: &'a Group<R>, ground: impl Fn(usize, f64) -> G) -> Self {
         let Group { places, layers, radius, .. } = group;
@@ -127,7 +127,7 @@ fn plain_patch<L: Copy>(&Patch { fragment, open, area, longest, local }: &Patch<
     Patch { fragment, open, area, longest, local: local.local }
 }
 
-impl<G: Layer<Sample: Ranked + Copy>> Ground for ClassGround<'_, G> {
+impl<G: Layer<Sample: SurfaceSample + Copy>> Ground for ClassGround<'_, G> {
     type Local = Classed<G::Local>;
     type Dart = Classed<G::Dart>;
     type Sample = G::Sample;

@@ -3,11 +3,12 @@
 use crate::classes::Classes;
 use crate::error::Result;
 use crate::job::Job;
+use crate::levels::{LevelOptions, Levelled, Levels, by_radius};
 use crate::order::Order;
 use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Classed, Group, Places, Unit};
 use crate::psp::fill::FillOptions;
-use crate::psp::levels::{Levelled, Levels, Ranked, by_radius, top};
+use crate::psp::levels::{NAMES, SurfaceSample, check_work, top};
 use crate::psp::options::{ClassOptions, check_quotient};
 use crate::rng::{Draw, hash};
 
@@ -104,6 +105,10 @@ pub fn is_ranked(options: &ClassOptions) -> Result<bool> {
 impl<U: Unit> Levelled for GroupLevels<'_, U> {
     type Sample = U::Sample;
 
+    const DIMENSION: u32 = 2;
+
+    const NAMES: [&'static str; 2] = NAMES;
+
     fn top(&self) -> f64 {
         top(self.places.mesh) / self.unit.least()
     }
@@ -112,19 +117,20 @@ impl<U: Unit> Levelled for GroupLevels<'_, U> {
         self.at(radius, None).expected_samples()
     }
 
-    fn has_given(&self) -> bool {
-        !self.earlier.is_empty()
+    fn check_work(&self, radius: f64, count: usize) -> Result<()> {
+        check_work(!self.earlier.is_empty(), self.expected(radius), count)
     }
 
     fn fill(
         &self,
         job: &Job,
-        options: FillOptions,
+        options: LevelOptions,
         radius: f64,
         samples: &[U::Sample],
     ) -> Result<(Vec<U::Sample>, u64)> {
         let group = self.at(radius, options.largest_rank);
-        let (mut samples, darts) = U::fill(&group, job, [self.earlier, samples].concat(), options)?;
+        let (mut samples, darts) =
+            U::fill(&group, job, [self.earlier, samples].concat(), FillOptions::of_level(options))?;
         samples.retain(|sample| self.members.contains(&usize::from(sample.sample().class)));
         Ok((samples, darts))
     }

@@ -9,7 +9,7 @@ use crate::psp::classes::layers::{Layer, Layers};
 use crate::psp::fill::{Block, FillOptions, Kinds, Measures, ONE_PIECE, Open, Site, Space, UniformGround, fill};
 use crate::psp::fragment::Facing;
 use crate::psp::given::Obstacles;
-use crate::psp::levels::Ranked;
+use crate::psp::levels::SurfaceSample;
 use crate::psp::set::{RADIUS_SLACK, Sample, SampleSet, surface_samples};
 use crate::rng::{Draw, Rng};
 
@@ -46,7 +46,7 @@ pub struct Classed<L = ()> {
 
 /// The unit of the radii of classes on a surface: constant, or varying.
 pub trait Unit: Copy + Sync {
-    type Sample: Copy + Ranked + Send + Sync;
+    type Sample: Copy + SurfaceSample + Send + Sync;
 
     /// An upper estimate of the samples of one class of a radius.
     fn expected_samples(&self, mesh: &Mesh, radius: f64) -> f64;
@@ -205,8 +205,8 @@ impl Site for Group<'_, Constant<'_>> {
 }
 
 /// The samples with their classes, and with their ranks if they have some.
-pub fn class_samples<S: Ranked>(mesh: &Mesh, samples: &[S], is_ranked: bool) -> Points<3> {
-    let samples = samples.iter().map(Ranked::sample);
+pub fn class_samples<S: SurfaceSample>(mesh: &Mesh, samples: &[S], is_ranked: bool) -> Points<3> {
+    let samples = samples.iter().map(SurfaceSample::sample);
     let mut set = surface_samples(mesh, samples.clone());
     set.classes = samples.clone().map(|sample| sample.class.into()).collect();
     if is_ranked {
