@@ -61,7 +61,8 @@ impl<const D: usize> Centred<D> {
         let local = positions.iter().map(|position| {
             let exact: [f64; D] = std::array::from_fn(|axis| position[axis] - origin[axis]);
             let floats = exact.map(|x| x as f32);
-            let squared = exact.iter().zip(floats).map(|(x, float)| (f64::from(float) - x).powi(2)).sum::<f64>();
+            let error = |(&x, float): (&f64, f32)| f64::from(float) - x;
+            let squared = exact.iter().zip(floats).map(error).map(|error| error * error).sum::<f64>();
             rounding = rounding.max(squared);
             floats
         });

@@ -38,7 +38,8 @@ pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
 pub use options::{
-    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors, RegionOptions,
+    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors,
+    RegionOptions,
 };
 pub use progressive::{Psp, project, sample};
 pub use report::Report;

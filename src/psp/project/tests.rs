@@ -14,7 +14,7 @@ use crate::psp::set::{Sample, SampleSet};
 
 #[path = "../../../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
-mod meshes;
+pub mod meshes;
 
 /// The largest distance by which rounding may move a point against an edge, in diagonals of the mesh.
 const ROUNDING: f64 = 2e-7;

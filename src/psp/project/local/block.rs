@@ -7,6 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::math::scalbn;
 use crate::mesh::{Mesh, exact, round_barycentrics};
 use crate::psp::fill::Block;
 use crate::psp::fragment::Fragment;
@@ -135,7 +136,7 @@ impl Candidates {
         let centre = 0.5 * low + 0.5 * high;
         let charts = Charts::new(pass.mesh, block, centre, 1.0 / radius);
         // Hits are moved by the rounding of their barycentrics and positions.
-        let moved = 2.0 * pass.mesh.float_spacing() / radius + charts.longest * 2f64.powi(-22);
+        let moved = 2.0 * pass.mesh.float_spacing() / radius + charts.longest * scalbn(1.0, -22);
         let unit = 1.0 + moved + 1e-9;
         let (box_low, box_high) = pass.mesh.bounds();
         let tolerance = TOLERANCE * exact(box_low).distance(exact(box_high)) / (radius * unit);

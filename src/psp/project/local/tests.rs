@@ -9,11 +9,8 @@ use crate::job::Context;
 use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::psp::project::tests::meshes;
 use crate::psp::{self, Engine, Options, Priority, ProjectionOptions, Psp, Report};
-
-#[path = "../../../../tests/all/common/meshes.rs"]
-#[allow(dead_code)]
-mod meshes;
 
 fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
