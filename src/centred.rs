@@ -7,7 +7,8 @@
 ///
 /// The origin is 0 where rounding moves no coordinate by more than a millionth (2^-20) of the longest side of the box around
 /// all positions, so that data near the origin stay as they are. Otherwise it is, on each axis whose coordinates exceed
-/// that side 15 times, near the middle of the box, a multiple of a power of two that is about 2^-10 of the longest side: subtracting it is exact.
+/// that side 15 times, near the middle of the box, a multiple of a power of two that is about 2^-10 of the longest side:
+/// subtracting it is exact.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Centred<const D: usize> {

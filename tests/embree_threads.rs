@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
-use azulejo::psp::{ProjectionOptions, Psp};
+use azulejo::psp::{ProjectionOptions, Projectors, Psp};
 use azulejo::trace::Scene;
 use azulejo::{Context, Error};
 use embree4_sys::*;
@@ -111,7 +111,7 @@ fn builds_keep_to_their_threads_and_can_be_watched() {
 fn watched((positions, triangles): Soup) {
     let mesh = || Arc::new(Mesh::new(positions.clone(), triangles.clone()).unwrap());
     let context = Context::new(1).unwrap();
-    let options = ProjectionOptions::new(0.05);
+    let options = ProjectionOptions::new(0.05).projectors(Projectors::Global);
     let told = Cell::new(0);
     let watch = |share: f64| {
         told.set(told.get() + usize::from(share > 0.0 && share < 0.1));

@@ -527,7 +527,7 @@ const RELAXATION: &[Call] = &[
 const VOLUME: &[Call] = &[Call {
     name: "volume::sample",
     reports: 15,
-    run: |c, p| said(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
+    run: |c, p| samples(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
     refused: &[
         ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
         ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),

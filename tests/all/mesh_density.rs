@@ -216,5 +216,5 @@ fn what_is_no_density_is_refused() {
     let ones = Density::PerVertex(&[1.0; 6]);
     assert_eq!(refused(ones, Scale::Radius(0.0)).0, "radius");
     assert_eq!(refused(ones, Scale::Count(f64::NAN)).0, "count");
-    assert_eq!(refused(ones, Scale::Count(1e20)).0, "density", "floats do not carry it");
+    assert_eq!(refused(ones, Scale::Count(1e20)).0, "count", "floats do not carry it");
 }

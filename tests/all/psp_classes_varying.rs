@@ -388,7 +388,7 @@ fn units_that_are_no_radii_are_refused() {
     assert!(said(Radius::Density { density: Density::PerVertex(&[0.0; 4]), scale }).starts_with("density: "));
     let density = Density::PerVertex(&[1.0; 4]);
     assert!(said(Radius::Density { density, scale: Scale::Count(0.0) }).starts_with("count: "));
-    assert!(said(Radius::Density { density, scale: Scale::Count(1e15) }).starts_with("density: "));
+    assert!(said(Radius::Density { density, scale: Scale::Count(1e15) }).starts_with("count: "));
 }
 
 #[test]

@@ -60,8 +60,9 @@ fn check(mesh: &Arc<Mesh>, radius: f64) {
         }
         counts.push(samples.len() as f64);
     }
-    // The projectors do find the surface, wherever it is; needles less often.
-    assert!(counts[1] > 0.1 * counts[0] && counts[1] < 1.1 * counts[2], "{counts:?}");
+    // The projectors do find the surface, wherever it is. They hit by area: where it is thinner than the radius a maximal set
+    // has samples by length, several times as many.
+    assert!(counts[1] > 0.04 * counts[0] && counts[1] < 1.1 * counts[2], "{counts:?}");
 }
 
 #[test]

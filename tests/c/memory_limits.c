@@ -53,10 +53,42 @@ static azulejo_status maximal(const azulejo_context *context, size_t count) {
     return freed(azulejo_maximal_sample(context, &o, &points, NULL), points);
 }
 
-static azulejo_status volume(const azulejo_context *context, size_t count) {
-    const azulejo_volume_options o = volume_options(cbrt(0.7336 / (double)count));
+static azulejo_status of_cube(const azulejo_context *context, const azulejo_volume_options *options) {
     azulejo_points *points = NULL;
-    return freed(azulejo_volume_sample(context, &o, &points, NULL), points);
+    return freed(azulejo_volume_sample(context, options, &points, NULL), points);
+}
+
+static double volume_radius(size_t count) { return cbrt(0.7336 / (double)count); }
+
+static azulejo_status volume(const azulejo_context *context, size_t count) {
+    const azulejo_volume_options o = volume_options(volume_radius(count));
+    return of_cube(context, &o);
+}
+
+static azulejo_status volume_progressive(const azulejo_context *context, size_t count) {
+    azulejo_volume_options o = volume_options(volume_radius(count));
+    o.order = AZULEJO_ORDER_PROGRESSIVE;
+    return of_cube(context, &o);
+}
+
+static azulejo_status volume_count(const azulejo_context *context, size_t count) {
+    azulejo_volume_options o = volume_options(0);
+    o.count = count;
+    return of_cube(context, &o);
+}
+
+static azulejo_status volume_count_progressive(const azulejo_context *context, size_t count) {
+    azulejo_volume_options o = volume_options(0);
+    o.count = count;
+    o.order = AZULEJO_ORDER_PROGRESSIVE;
+    return of_cube(context, &o);
+}
+
+static azulejo_status volume_around(const azulejo_context *context, size_t count) {
+    azulejo_volume_options o = volume_options(volume_radius(count));
+    o.given_positions = cloud;
+    o.given_count = count / 4;
+    return of_cube(context, &o);
 }
 
 static azulejo_status of_plane(const azulejo_context *context, const azulejo_kdrt_options *options) {
@@ -504,6 +536,10 @@ static const struct {
 } calls[] = {
     {"maximal", maximal, 500000, MOST_ASKED},
     {"volume", volume, 1000000, MOST_ASKED},
+    {"volume, progressive", volume_progressive, 400000, MOST_ASKED},
+    {"volume, count", volume_count, 400000, MOST_ASKED},
+    {"volume, count, progressive", volume_count_progressive, 400000, MOST_ASKED},
+    {"volume, given samples", volume_around, 500000, MOST_ASKED},
     {"plane, tiled", tiled, 8000000, MOST_ASKED},
     {"plane, not tiled", not_tiled, 600000, MOST_ASKED},
     {"plane, given samples", plane_around, 2000000, MOST_ASKED},

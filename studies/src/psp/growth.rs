@@ -62,6 +62,7 @@ struct Look {
     iterations: u32,
     seconds: f64,
     samples: f64,
+    /// Not a number where it is not measured.
     uncovered: f64,
 }
 
@@ -86,7 +87,10 @@ impl Measure<'_> {
     fn look(&self, psp: &Psp, iterations: u32, seconds: f64, probes: u64) -> Result<Look> {
         let positions = psp.samples().positions;
         let (mesh, radius, samples) = (&self.scene.mesh, self.radius(), positions.len() as f64);
-        let uncovered = surface_uncovered_fraction(self.context, mesh, &positions, radius, probes, 1, None)?;
+        let uncovered = match probes {
+            0 => f64::NAN,
+            _ => surface_uncovered_fraction(self.context, mesh, &positions, radius, probes, 1, None)?,
+        };
         Ok(Look { iterations, seconds, samples, uncovered })
     }
 

@@ -7,7 +7,6 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::math::scalbn;
 use crate::mesh::{Mesh, exact, round_barycentrics};
 use crate::psp::fill::Block;
 use crate::psp::fragment::Fragment;
@@ -22,6 +21,9 @@ use crate::trace::{Hit, Ray};
 
 /// The least distance of a hit from the edges of its triangle, in diagonals of the mesh's box.
 const TOLERANCE: f64 = 1e-6;
+
+/// The share of an edge by which barycentrics that are rounded to floats move a point at most.
+const BARYCENTRIC_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
 /// No candidate.
 pub const NONE: u32 = u32::MAX;
@@ -136,7 +138,7 @@ impl Candidates {
         let centre = 0.5 * low + 0.5 * high;
         let charts = Charts::new(pass.mesh, block, centre, 1.0 / radius);
         // Hits are moved by the rounding of their barycentrics and positions.
-        let moved = 2.0 * pass.mesh.float_spacing() / radius + charts.longest * scalbn(1.0, -22);
+        let moved = 2.0 * pass.mesh.float_spacing() / radius + charts.longest * BARYCENTRIC_ROUNDING;
         let unit = 1.0 + moved + 1e-9;
         let (box_low, box_high) = pass.mesh.bounds();
         let tolerance = TOLERANCE * exact(box_low).distance(exact(box_high)) / (radius * unit);
