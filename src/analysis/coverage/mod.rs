@@ -44,7 +44,7 @@ pub struct Coverage {
 /// be missed, unless they are all there is. Takes O(n log n).
 ///
 /// # Errors
-/// As [`covering_radius_2d`]; and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not
+/// As [`covering_radius_2d`]; and [`Error::InvalidArgument`] for a radius that is not
 /// positive and finite.
 pub fn coverage_2d(
     context: &Context,
@@ -77,8 +77,8 @@ pub fn coverage_2d(
 /// Takes O(n log n).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
-/// [`Error::Cancelled`](crate::Error::Cancelled).
+/// [`Error::InvalidArgument`] for an invalid domain and for points outside it (`positions`);
+/// [`Error::Cancelled`].
 pub fn covering_radius_2d(
     context: &Context,
     domain: &Domain,
@@ -193,8 +193,8 @@ impl SearchCell {
 /// [`surface_coverage`] proves that there is none.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite, for positions
-/// that are not finite and for no `probes`; [`Error::Cancelled`](crate::Error::Cancelled).
+/// [`Error::InvalidArgument`] for a radius that is not positive and finite, for positions
+/// that are not finite and for no `probes`; [`Error::Cancelled`].
 pub fn surface_uncovered_fraction(
     context: &Context,
     mesh: &Mesh,
