@@ -36,15 +36,20 @@ use crate::volume::set::{Sample, Set};
 const BYTES_PER_SAMPLE: f64 = 27.0;
 
 /// The same for samples in progressive order, of an exact count, and of both.
-const BYTES_PER_RANKED_SAMPLE: f64 = 90.0;
-const BYTES_PER_COUNTED_SAMPLE: f64 = 90.0;
-const BYTES_PER_FIRST_SAMPLE: f64 = 110.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 62.0;
+const BYTES_PER_COUNTED_SAMPLE: f64 = 62.0;
+const BYTES_PER_FIRST_SAMPLE: f64 = 72.0;
 
 /// The most bytes that a given sample takes: its ball, in its bin, and both while they are sorted.
 const BYTES_PER_GIVEN: f64 = 96.0;
 
-/// The most bytes of the grid and the voxels of a block, which each thread has.
+/// The same in a block, with images on a torus; and the number of samples of the sets that are about one block.
+const BYTES_PER_GIVEN_OF_BLOCK: f64 = 230.0;
+const SAMPLES_OF_BLOCK: f64 = 15_000.0;
+
+/// The most bytes of the grid and the voxels of a block, which each thread has; and of the balls of its cells.
 const BYTES_PER_THREAD: f64 = (4 << 20) as f64;
+const BYTES_PER_THREAD_AROUND: f64 = (10 << 20) as f64;
 
 /// The least number of samples for which another thread is of use.
 const SAMPLES_PER_THREAD: f64 = 1000.0;
@@ -216,7 +221,10 @@ fn check_count(count: usize, given: &Given<3>) -> Result<()> {
 /// Refuses more samples than can be held beside given ones.
 fn require(context: &Context, samples: f64, bytes: f64, given: &Given<3>, argument: &'static str) -> Result<()> {
     let threads = (context.num_threads() as f64).min(samples / SAMPLES_PER_THREAD);
-    let bytes = samples * bytes + threads * BYTES_PER_THREAD + given.positions.len() as f64 * BYTES_PER_GIVEN;
+    let given = given.positions.len() as f64;
+    let bytes_per_given = BYTES_PER_GIVEN + BYTES_PER_GIVEN_OF_BLOCK * (SAMPLES_OF_BLOCK / samples).min(1.0);
+    let bytes_per_thread = BYTES_PER_THREAD + if given > 0.0 { BYTES_PER_THREAD_AROUND } else { 0.0 };
+    let bytes = samples * bytes + given * bytes_per_given + threads.max(1.0) * bytes_per_thread;
     memory::require(bytes, argument, &format!("about {samples:.0} samples"))
 }
 

@@ -71,6 +71,19 @@ impl Cells {
         let [low, high] = [place - distance, place + distance].map(|plane| (plane / self.sides[axis]).floor());
         if high < 0.0 || low > last { 0..0 } else { low.max(0.0) as usize..high.min(last) as usize + 1 }
     }
+
+    /// Visits the cells of the box around a ball, with the distances along each axis.
+    fn for_each_around(&self, ball: &Disk<3>, mut visit: impl FnMut(usize, [[f64; 2]; 3])) {
+        let range = |axis: usize| self.range(axis, ball.centre[axis], ball.radius + self.margin);
+        let [columns, rows, layers] = [range(0), range(1), range(2)];
+        for (z, y) in layers.flat_map(|z| rows.clone().map(move |y| (z, y))) {
+            let [along_y, along_z] = [self.distances(1, y, ball.centre[1]), self.distances(2, z, ball.centre[2])];
+            for x in columns.clone() {
+                let cell = (z * self.counts[1] + y) * self.counts[0] + x;
+                visit(cell, [self.distances(0, x, ball.centre[0]), along_y, along_z]);
+            }
+        }
+    }
 }
 
 /// The balls that matter to each cell of a grid.
@@ -93,31 +106,30 @@ impl Obstacles {
     /// The balls of the cells of a grid, relative to it.
     pub fn new(cells: &Cells, mut balls: Vec<Disk<3>>) -> Self {
         let count = cells.counts.iter().product();
-        let (mut covered, mut met, mut open) = (vec![false; count], Vec::new(), count);
+        let (mut covered, mut open) = (vec![false; count], count);
         // Large balls first: cells that they cover are not tested again.
         balls.sort_unstable_by(|a, b| b.radius.total_cmp(&a.radius));
-        for (index, ball) in (0..).zip(&balls) {
+        for ball in &balls {
             if open == 0 {
                 break;
             }
-            let range = |axis: usize| cells.range(axis, ball.centre[axis], ball.radius + cells.margin);
-            let [columns, rows, layers] = [range(0), range(1), range(2)];
-            for (z, y) in layers.flat_map(|z| rows.clone().map(move |y| (z, y))) {
-                let [[near_y, far_y], [near_z, far_z]] =
-                    [cells.distances(1, y, ball.centre[1]), cells.distances(2, z, ball.centre[2])];
-                for x in columns.clone() {
-                    let cell = (z * cells.counts[1] + y) * cells.counts[0] + x;
-                    let [near_x, far_x] = cells.distances(0, x, ball.centre[0]);
-                    if !covered[cell] && ball.reaches(|axis| [near_x, near_y, near_z][axis]) {
-                        covered[cell] = ball.reaches(|axis| [far_x, far_y, far_z][axis]);
-                        open -= usize::from(covered[cell]);
-                        met.push((cell as u32, index));
-                    }
+            cells.for_each_around(ball, |cell, distances| {
+                if !covered[cell] && ball.reaches(|axis| distances[axis][1]) {
+                    covered[cell] = true;
+                    open -= 1;
                 }
-            }
+            });
         }
-        let met = met.iter().filter(|(cell, _)| !covered[*cell as usize]).map(|&(cell, ball)| (cell as usize, ball));
-        let met = Binned::new(count, met);
+        // Only then the others, as most cells of a dense set are covered, each by any of many balls that meet it.
+        let mut met = Vec::new();
+        for (index, ball) in (0..).zip(&balls).take_while(|_| open > 0) {
+            cells.for_each_around(ball, |cell, distances| {
+                if !covered[cell] && ball.reaches(|axis| distances[axis][0]) {
+                    met.push((cell as u32, index));
+                }
+            });
+        }
+        let met = Binned::new(count, met.iter().map(|&(cell, ball)| (cell as usize, ball)));
         let (mut starts, mut pages) = (Vec::with_capacity(count + 1), Vec::new());
         for cell in 0..count {
             starts.push(pages.len() as u32);

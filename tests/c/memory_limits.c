@@ -84,11 +84,19 @@ static azulejo_status volume_count_progressive(const azulejo_context *context, s
     return of_cube(context, &o);
 }
 
-static azulejo_status volume_around(const azulejo_context *context, size_t count) {
+static azulejo_status around_in_cube(const azulejo_context *context, size_t count, size_t given_count) {
     azulejo_volume_options o = volume_options(volume_radius(count));
     o.given_positions = cloud;
-    o.given_count = count / 4;
+    o.given_count = given_count;
     return of_cube(context, &o);
+}
+
+static azulejo_status volume_around(const azulejo_context *context, size_t count) {
+    return around_in_cube(context, count, count / 4);
+}
+
+static azulejo_status volume_around_many(const azulejo_context *context, size_t count) {
+    return around_in_cube(context, count, 20 * count);
 }
 
 static azulejo_status of_plane(const azulejo_context *context, const azulejo_kdrt_options *options) {
@@ -527,6 +535,9 @@ static azulejo_status thinned_plane(const azulejo_context *context, size_t count
 #define MOST_ASKED_UNEVENLY 1.7
 #define MOST_ASKED_BY_TRIANGLES 30
 
+/* Around given samples it is not known before how many of them a block has. */
+#define MOST_ASKED_AROUND 2
+
 /* All calls, each with a number of samples for which it takes some tens of MB. */
 static const struct {
     const char *name;
@@ -536,10 +547,11 @@ static const struct {
 } calls[] = {
     {"maximal", maximal, 500000, MOST_ASKED},
     {"volume", volume, 1000000, MOST_ASKED},
-    {"volume, progressive", volume_progressive, 400000, MOST_ASKED},
-    {"volume, count", volume_count, 400000, MOST_ASKED},
-    {"volume, count, progressive", volume_count_progressive, 400000, MOST_ASKED},
-    {"volume, given samples", volume_around, 500000, MOST_ASKED},
+    {"volume, progressive", volume_progressive, 400000, MOST_ASKED_UNEVENLY},
+    {"volume, count", volume_count, 400000, MOST_ASKED_UNEVENLY},
+    {"volume, count, progressive", volume_count_progressive, 400000, MOST_ASKED_UNEVENLY},
+    {"volume, given samples", volume_around, 500000, MOST_ASKED_AROUND},
+    {"volume, many given samples", volume_around_many, 25000, MOST_ASKED_AROUND},
     {"plane, tiled", tiled, 8000000, MOST_ASKED},
     {"plane, not tiled", not_tiled, 600000, MOST_ASKED},
     {"plane, given samples", plane_around, 2000000, MOST_ASKED},
