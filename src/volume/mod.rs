@@ -19,6 +19,7 @@ mod voxels;
 
 use crate::error::{Error, Result};
 use crate::given::Given;
+use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 pub use crate::levels::Amount;
 use crate::levels::{self, LevelOptions, Levelled, Levels, Ranked};
@@ -145,15 +146,14 @@ pub struct Report {
 /// more than floats or given samples leave room for; [`Error::TooLarge`] above 2^32 samples or the available memory, both
 /// before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
-    let start = std::time::Instant::now();
+    let stopwatch = Stopwatch::start();
     let &Options { amount, domain, seed, order, quotient, given } = options;
     domain.check()?;
     given.check()?;
     if order == Order::Progressive {
         check_quotient(quotient)?;
     }
-    let report =
-        |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: start.elapsed().as_secs_f64() };
+    let report = |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: stopwatch.seconds() };
     let finest = finest_radius(float_spacing(domain.min.iter().chain(&domain.max)));
     let (radius, bytes_per_sample) = match (amount, order) {
         (Amount::Radius(radius), Order::Any) => (radius, BYTES_PER_SAMPLE),
