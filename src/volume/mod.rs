@@ -29,7 +29,6 @@ use crate::order::{DEFAULT_QUOTIENT, Order, check_quotient};
 use crate::plane::{GivenDisks, Lattice, float_spacing};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius, finest_radius};
 use crate::setters::setters;
-use crate::simd::Level;
 use crate::volume::set::{Sample, Set};
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
@@ -180,7 +179,7 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     let lattice = Lattice::of_any_size(&domain, radius)?;
     if let (Amount::Radius(radius), Order::Any) = (amount, order) {
         let given = GivenDisks::new(&domain, &lattice, radius, &given);
-        let set = context.run(progress, |job| Set::new(job, &lattice, &given, seed, Level::widest()))?;
+        let set = context.run(progress, |job| Set::maximal(job, &lattice, &given, seed))?;
         let points = set.into_positions().into();
         return Ok((points, report(radius, radius)));
     }

@@ -43,6 +43,11 @@ pub struct Set<'a> {
 }
 
 impl<'a> Set<'a> {
+    /// A maximal set around given balls, by the widest vectors of the processor.
+    pub fn maximal(job: &Job, lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64) -> Result<Self> {
+        Self::new(job, lattice, given, seed, Level::widest())
+    }
+
     /// A maximal set around given balls, by instructions of some level.
     pub fn new(job: &Job, lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64, level: Level) -> Result<Self> {
         let mut set = Self::empty(lattice, given, seed, level);
