@@ -1,46 +1,25 @@
 //! One iteration of local projectors against a maximal set of the same radius, in one run: time and samples.
 //!
 //! One thread, its processor time where the system tells it (other programs then do not count), the least of some rounds
-//! in turns. A sphere, and the bunny and the dragon (`AZULEJO_BENCH_BUNNY`, `AZULEJO_BENCH_DRAGON`) where they are found.
+//! in turns. A sphere, and the bunny and the dragon where they are found (`common/mod.rs`).
+
+mod common;
+#[path = "../cli/src/procedural/shapes.rs"]
+#[allow(dead_code)]
+mod shapes;
 
 use std::hint::black_box;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Options, ProjectionOptions};
 use azulejo::{Context, MAXIMAL_DENSITY};
-use glam::DVec3;
 
-/// A sphere with `rows` of triangles from pole to pole.
-fn sphere(rows: u32) -> Arc<Mesh> {
-    let columns = 2 * rows;
-    let place = |row: u32, column: u32| {
-        let (sin, cos) = (std::f64::consts::PI * f64::from(row) / f64::from(rows)).sin_cos();
-        let (y, x) = (std::f64::consts::TAU * f64::from(column % columns) / f64::from(columns)).sin_cos();
-        DVec3::new(sin * x, sin * y, cos).as_vec3().to_array()
-    };
-    let number = |row: u32, column: u32| row * columns + column % columns;
-    let positions = (0..=rows).flat_map(|row| (0..columns).map(move |column| place(row, column))).collect();
-    let halves = |row: u32, column: u32| {
-        let [a, b] = [number(row, column), number(row, column + 1)];
-        let [c, d] = [number(row + 1, column), number(row + 1, column + 1)];
-        [(row > 0).then_some([a, c, b]), (row + 1 < rows).then_some([b, c, d])]
-    };
-    let triangles = (0..rows).flat_map(|row| (0..columns).flat_map(move |column| halves(row, column))).flatten();
-    Arc::new(Mesh::new(positions, triangles.collect()).expect("a good mesh"))
-}
-
-fn meshes() -> Vec<(&'static str, Arc<Mesh>)> {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let file = |variable: &str, path: &str| std::env::var_os(variable).map_or(root.join(path), PathBuf::from);
-    let files = [
-        ("bunny", file("AZULEJO_BENCH_BUNNY", "../shared/meshes/bunny.obj")),
-        ("dragon", file("AZULEJO_BENCH_DRAGON", "out/dragon.ply")),
-    ];
-    let loaded = files.into_iter().filter_map(|(name, path)| Some((name, Arc::new(Mesh::load(path).ok()?))));
-    std::iter::once(("sphere", sphere(173))).chain(loaded).collect()
+fn meshes() -> impl Iterator<Item = (&'static str, Arc<Mesh>)> {
+    let (positions, triangles) = shapes::sphere(346);
+    let sphere = Arc::new(Mesh::new(positions, triangles).expect("a good mesh"));
+    std::iter::once(("sphere", sphere)).chain(common::loaded())
 }
 
 /// The processor time of this thread in seconds; wall time where the system does not tell.

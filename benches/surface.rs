@@ -6,13 +6,13 @@
 
 #[path = "surface/bare.rs"]
 mod bare;
+mod common;
 #[path = "../tests/all/common/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 #[path = "surface/tracing.rs"]
 mod tracing;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -55,14 +55,7 @@ fn surface(criterion: &mut Criterion) {
 
 /// The meshes of the table that can be had here.
 fn table_meshes() -> Vec<(&'static str, Arc<Mesh>)> {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let file = |variable: &str, path: &str| std::env::var_os(variable).map_or(root.join(path), PathBuf::from);
-    let files = [
-        ("bunny", file("AZULEJO_BENCH_BUNNY", "../shared/meshes/bunny.obj")),
-        ("dragon", file("AZULEJO_BENCH_DRAGON", "out/dragon.ply")),
-    ];
-    let loaded = files.into_iter().filter_map(|(name, path)| Some((name, Arc::new(Mesh::load(path).ok()?))));
-    std::iter::once(("hall", mesh(meshes::hall(48)))).chain(loaded).collect()
+    std::iter::once(("hall", mesh(meshes::hall(48)))).chain(common::loaded()).collect()
 }
 
 /// Wall times of the stages of a maximal set by one iteration, in seconds.

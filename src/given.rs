@@ -3,6 +3,9 @@
 use crate::check;
 use crate::error::{Error, Result};
 
+/// Why clearances are required beside a count.
+pub(crate) const WITH_A_COUNT: &str = "are required with a count, as no radius stands for them";
+
 /// Samples that exist already, each with a *clearance*. A set that is filled around them keeps its samples at least the
 /// clearance from each of them, and covers every place that is farther than the clearance from all of them.
 ///
@@ -58,6 +61,14 @@ impl<'a, const AXES: usize> Given<'a, AXES> {
             check_clearances(clearances)?;
         }
         Self::at(self.positions).check()
+    }
+
+    /// Refuses samples without clearances where no radius stands for them, for a reason.
+    pub(crate) fn require_clearances(&self, reason: &'static str) -> Result<()> {
+        match self.clearances {
+            None if !self.positions.is_empty() => Err(Error::invalid("given_clearances", reason)),
+            _ => Ok(()),
+        }
     }
 
     /// Refuses values out of range, by their index.

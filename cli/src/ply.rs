@@ -1,5 +1,5 @@
-//! PLY files: sets of the plane (`x y z`, where z is 0), samples of a surface (`x y z nx ny nz triangle u v`, and `radius` where radii
-//! differ), both with `rank` in progressive order and `class` where there are several; meshes.
+//! PLY files: sets of the plane (`x y z`, where z is 0), samples of a surface (`x y z nx ny nz triangle u v`, and `radius`
+//! where radii differ), both with `rank` in progressive order and `class` where there are several; meshes.
 //!
 //! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`: points alone do
 //! not tell the period of a torus. Files without that comment are read too.

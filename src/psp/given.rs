@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::DVec3;
 
 use crate::error::{Error, Result};
-use crate::given::Given;
+use crate::given::{Given, WITH_A_COUNT};
 use crate::index::Binned;
 use crate::math::scalbn;
 use crate::memory;
@@ -70,7 +70,7 @@ impl GivenSamples {
     pub fn of_levels(mesh: &Mesh, given: Given<3>, radius: Option<f64>) -> Result<Self> {
         check(given)?;
         if radius.is_none() {
-            require_clearances(given, "are required with a count, as no radius stands for them")?;
+            given.require_clearances(WITH_A_COUNT)?;
         }
         let obstacles = Obstacles::new(mesh, balls(given, radius.unwrap_or(0.0)));
         Ok(Self { obstacles, ..Self::none(mesh) })
@@ -117,14 +117,6 @@ impl NearGiven<'_> {
     pub fn reject(&self, position: [f32; 3]) -> bool {
         let rejects = |grid: &Grid| grid.rejects(grid.space.place(position), NO_NORMAL);
         self.grid.as_ref().is_some_and(rejects) || self.obstacles.reject(position)
-    }
-}
-
-/// Refuses given samples without clearances where no radius stands for them, for a reason.
-pub fn require_clearances(given: Given<3>, reason: &'static str) -> Result<()> {
-    match given.clearances {
-        None if !given.positions.is_empty() => Err(Error::invalid("given_clearances", reason)),
-        _ => Ok(()),
     }
 }
 

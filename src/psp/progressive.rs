@@ -74,9 +74,9 @@ impl Psp {
     /// iterations.
     ///
     /// Time grows with the hits and the triangles; with global projectors, with the area of the mesh's box over the squared
-    /// radius, and with the hits. Where that is out of all
-    /// proportion to the surface, as for small parts far apart (more than 20 rays for each sample that can stand on the
-    /// surface, and 10 million rays in all), nothing is done and the report counts no iteration: use [`Psp::fill`].
+    /// radius, and with the hits. Where that is out of all proportion to the surface, as for small parts far apart (more
+    /// than 20 rays for each sample that can stand on the surface, and 10 million rays in all), nothing is done and the
+    /// report counts no iteration: use [`Psp::fill`].
     ///
     /// # Errors
     /// [`Error::Cancelled`] by the progress callback: the interrupted iteration adds nothing and is repeated by the

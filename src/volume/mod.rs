@@ -18,7 +18,7 @@ mod set;
 mod voxels;
 
 use crate::error::{Error, Result};
-use crate::given::Given;
+use crate::given::{Given, WITH_A_COUNT};
 use crate::host::Stopwatch;
 use crate::job::{Context, Job, Progress};
 pub use crate::levels::Amount;
@@ -35,9 +35,8 @@ use crate::volume::set::{Sample, Set};
 /// before they are put to the others, and positions.
 const BYTES_PER_SAMPLE: f64 = 27.0;
 
-/// The same for samples in progressive order, of an exact count, and of both.
+/// The same for samples in progressive order or of an exact count, and of both.
 const BYTES_PER_RANKED_SAMPLE: f64 = 62.0;
-const BYTES_PER_COUNTED_SAMPLE: f64 = 62.0;
 const BYTES_PER_FIRST_SAMPLE: f64 = 72.0;
 
 /// The most bytes that a given sample takes: its ball, in its bin, and both while they are sorted.
@@ -154,35 +153,33 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     }
     let report = |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: stopwatch.seconds() };
     let finest = finest_radius(float_spacing(domain.min.iter().chain(&domain.max)));
-    let (radius, bytes_per_sample) = match (amount, order) {
-        (Amount::Radius(radius), Order::Any) => (radius, BYTES_PER_SAMPLE),
-        (Amount::Radius(radius), Order::Progressive) => (radius, BYTES_PER_RANKED_SAMPLE),
-        (Amount::Count(count), order) => {
+    let bytes_per_sample = match (amount, order) {
+        (Amount::Radius(_), Order::Any) => BYTES_PER_SAMPLE,
+        (Amount::Count(_), Order::Progressive) => BYTES_PER_FIRST_SAMPLE,
+        _ => BYTES_PER_RANKED_SAMPLE,
+    };
+    let lattice = match amount {
+        Amount::Radius(radius) => {
+            let expected = checked_samples(&domain, radius)?;
+            // Before the memory: the radius that floats allow.
+            let lattice = Lattice::of_any_size(&domain, radius)?;
+            require(context, expected, bytes_per_sample, &given, "radius")?;
+            lattice
+        }
+        Amount::Count(count) => {
             check_count(count, &given)?;
-            let bytes = if order == Order::Any { BYTES_PER_COUNTED_SAMPLE } else { BYTES_PER_FIRST_SAMPLE };
-            require(context, count as f64, bytes, &given, "count")?;
-            (finest, bytes)
+            require(context, count as f64, bytes_per_sample, &given, "count")?;
+            Lattice::of_any_size(&domain, finest)?
         }
     };
-    if matches!(amount, Amount::Radius(_)) {
-        check_radius(radius)?;
-        let expected = expected_samples(&domain, radius);
-        if expected > f64::from(u32::MAX) {
-            let limit = f64::from(u32::MAX);
-            let reason = format!("{radius:?} asks for about {expected:.2e} samples, above the limit of {limit:.2e}");
-            return Err(Error::too_large("radius", reason));
-        }
-        // Before the memory: the radius that floats allow.
-        Lattice::of_any_size(&domain, radius)?;
-        require(context, expected, bytes_per_sample, &given, "radius")?;
-    }
-    let lattice = Lattice::of_any_size(&domain, radius)?;
     if let (Amount::Radius(radius), Order::Any) = (amount, order) {
         let given = GivenDisks::new(&domain, &lattice, radius, &given);
         let set = context.run(progress, |job| Set::maximal(job, &lattice, &given, seed))?;
         let points = set.into_positions().into();
         return Ok((points, report(radius, radius)));
     }
+    // Beside a count each given sample has a clearance.
+    let radius = if let Amount::Radius(radius) = amount { radius } else { finest };
     let cuboid = Cuboid {
         has_given: !given.positions.is_empty(),
         given: GivenDisks::new(&domain, &lattice, radius, &given),
@@ -203,6 +200,17 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     Ok((points, report(found.radius, found.covering_radius)))
 }
 
+/// The approximate number of samples of a radius; refuses one out of range, and more samples than can be indexed.
+fn checked_samples(domain: &Domain<3>, radius: f64) -> Result<f64> {
+    check_radius(radius)?;
+    let (expected, limit) = (expected_samples(domain, radius), f64::from(u32::MAX));
+    if expected > limit {
+        let reason = format!("{radius:?} asks for about {expected:.2e} samples, above the limit of {limit:.2e}");
+        return Err(Error::too_large("radius", reason));
+    }
+    Ok(expected)
+}
+
 /// Refuses a count that is 0 or cannot be indexed, and given samples without clearances beside it.
 fn check_count(count: usize, given: &Given<3>) -> Result<()> {
     if count == 0 {
@@ -211,10 +219,7 @@ fn check_count(count: usize, given: &Given<3>) -> Result<()> {
     if count > u32::MAX as usize {
         return Err(Error::too_large("count", format!("{count}; the limit is {}", u32::MAX)));
     }
-    if !given.positions.is_empty() && given.clearances.is_none() {
-        return Err(Error::invalid("given_clearances", "are required with a count, as no radius stands for them"));
-    }
-    Ok(())
+    given.require_clearances(WITH_A_COUNT)
 }
 
 /// Refuses more samples than can be held beside given ones.

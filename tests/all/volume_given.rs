@@ -5,7 +5,7 @@ use azulejo::{Boundary, Context, Domain, Error, Given};
 
 use crate::common::BOUNDARIES;
 use crate::common::sets::Random;
-use crate::common::volume_oracle::{check_around, gap_between, sample_in_ball};
+use crate::common::volume_oracle::{HARD_CUBOIDS, check_around, gap_between, sample_in_ball};
 
 /// Positions with their clearances.
 type Set = (Vec<[f32; 3]>, Vec<f64>);
@@ -48,20 +48,8 @@ fn random_given(random: &mut Random, domain: &Domain<3>, radius: f64, count: usi
 #[test]
 fn hard_cuboids_around_samples_of_all_clearances() {
     let mut random = Random::new(1);
-    let cases = [
-        ([0.0; 3], [1.0; 3], 0.1),
-        ([-0.37, 0.11, -2.0], [1.91, 1.0 / 3.0, -1.1], 0.12),
-        ([1e5, -3e4, 0.3], [1e5 + 12.5, -3e4 + 9.9, 5.0], 1.0),
-        ([1.0; 3], [1.00005, 1.00004, 1.00003], 64.2 / f64::from(1 << 23)),
-        ([1.0; 3], [1.0000107; 3], 89.0 / f64::from(1 << 23)),
-        ([-1e37, 1e36, 0.0], [1e38, 2e38, 1.5e38], 2e37),
-        ([-1e-30; 3], [3.3e-30, 2e-30, 0.0], 4e-31),
-        ([0.0; 3], [10.0, 0.1, 0.3], 0.25),
-        ([0.0; 3], [2.5, 2.5, 0.1], 0.1),
-        ([0.0, 0.5, -1.0], [1.0, 1.45, 0.1], 0.055),
-    ];
     for boundary in BOUNDARIES {
-        for (min, max, radius) in cases {
+        for (min, max, radius) in HARD_CUBOIDS {
             for (seed, count) in [3, 40, 400].into_iter().enumerate() {
                 let domain = cuboid(min, max, boundary);
                 let given = random_given(&mut random, &domain, radius, count);

@@ -21,7 +21,8 @@ use crate::watch::Watch;
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
 /// change it; another one, from another thread or from progress, raises RuntimeError.
 ///
-/// mesh, radius, seed, projectors, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty at first.
+/// mesh, radius, seed, projectors, priority, given_positions, given_clearances, cosine: as in psp_sample. The set is empty
+/// at first.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Psp {
     /// Of the mesh.

@@ -130,8 +130,9 @@
 //!   Embree before it forked, the child should use AZULEJO_ENGINE_RASTERISER.
 //!
 //! Determinism. The same options and seed give the same bytes, for every number of threads and
-//!   whatever was called before, on every processor and system. Only AZULEJO_ENGINE_EMBREE
-//!   with AZULEJO_PROJECTORS_GLOBAL depends on the version of Embree and on the instruction set.
+//!   whatever was called before, on every processor and system. Only sets by
+//!   AZULEJO_PROJECTORS_GLOBAL depend on the version of Embree and on the instruction set, unless
+//!   the engine is AZULEJO_ENGINE_RASTERISER.
 //!
 //! Memory. Requests that memory cannot hold are refused before memory is taken; the free memory of
 //!   the machine counts, and the limits of the process (ulimit -v) and of its control groups, on

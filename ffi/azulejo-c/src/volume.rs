@@ -4,7 +4,7 @@ use std::ffi::c_void;
 
 use azulejo_core::{Order, volume};
 
-use crate::boundary::{Out, check_unused};
+use crate::boundary::{Out, check_reserved, check_unused};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::given::given;
@@ -126,7 +126,7 @@ impl azulejo_volume_options {
         if order == Order::Any {
             check_unused("quotient", self.quotient, 0.0, "in any order")?;
         }
-        check_unused("reserved", self.reserved, 0, "here")?;
+        check_reserved(self.reserved)?;
         let options = match self.count {
             0 => volume::Options::new(self.radius),
             count => {

@@ -18,7 +18,7 @@ use crate::psp::adaptive::pieces::{BYTES_PER_RANKED_SAMPLE, BYTES_PER_SAMPLE, Me
 use crate::psp::adaptive::site::{GradedSurface, OneKind, fill_octaves};
 use crate::psp::fill::FillOptions;
 use crate::psp::fragment::Facing;
-use crate::psp::given::{Obstacles, require_clearances};
+use crate::psp::given::Obstacles;
 use crate::psp::levels::{self, LevelOptions, Levelled, LevelledSet, Levels, NAMES, SurfaceSample, check_work, top};
 use crate::psp::report::Report;
 use crate::psp::set::Sample;
@@ -74,7 +74,7 @@ pub fn sample(
         Some(_) => None,
         None => Some(RadiusField::new(mesh, options.radius, None, 1.0)?),
     };
-    require_clearances(options.given, "are required where the radius varies")?;
+    options.given.require_clearances("are required where the radius varies")?;
     let obstacles = &Obstacles::of(mesh, options.given)?;
     let found = context.run(progress, |job| {
         let (density, unit) = match &density {

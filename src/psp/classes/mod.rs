@@ -26,7 +26,7 @@ use crate::psp::classes::levels::{expected_samples, is_ranked, sample_groups};
 use crate::psp::classes::site::{Constant, Places, class_samples};
 use crate::psp::fill::{Measures, require_samples};
 use crate::psp::fragment::Facing;
-use crate::psp::given::{Obstacles, require_clearances};
+use crate::psp::given::Obstacles;
 use crate::psp::options::ClassOptions;
 use crate::psp::report::Report;
 
@@ -107,7 +107,7 @@ pub fn sample_classes(
             (class_samples(mesh, &samples, is_ranked), darts)
         }
         Some(radius) => {
-            require_clearances(options.given, "are required where the radius varies")?;
+            options.given.require_clearances("are required where the radius varies")?;
             let radius = VaryingRadius::new(mesh, radius, classes)?;
             let (samples, darts) = context.run(progress, |job| {
                 let field = &radius.field(&job.part(0.0, 0.02))?;

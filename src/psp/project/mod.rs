@@ -77,9 +77,9 @@ impl Projection {
     }
 }
 
-/// An iteration of global projectors is skipped if it would trace more rays than this for each sample that can lie on the surface. Parts far
-/// apart in a large box are hit that rarely. (Filling alone is as fast from 5 rays per sample on, measured on dust, and
-/// nearly twice as fast with 27; up to there an iteration that was requested is made.)
+/// An iteration of global projectors is skipped if it would trace more rays than this for each sample that can lie on the
+/// surface. Parts far apart in a large box are hit that rarely. (Filling alone is as fast from 5 rays per sample on,
+/// measured on dust, and nearly twice as fast with 27; up to there an iteration that was requested is made.)
 const RAYS_PER_SAMPLE: f64 = 20.0;
 /// An iteration of no more rays than this is never skipped: its cost is negligible.
 const RAYS_ALWAYS: f64 = 1e7;

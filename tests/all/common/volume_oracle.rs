@@ -9,6 +9,22 @@ type Point = [f64; 3];
 /// A ball by its centre and radius.
 type Ball = (Point, f64);
 
+/// Cuboids with all that makes arithmetic hard, with radii for some hundred samples.
+pub const HARD_CUBOIDS: [(Point, Point, f64); 10] = [
+    ([0.0; 3], [1.0; 3], 0.1),
+    ([-0.37, 0.11, -2.0], [1.91, 1.0 / 3.0, -1.1], 0.12),
+    ([1e5, -3e4, 0.3], [1e5 + 12.5, -3e4 + 9.9, 5.0], 1.0),
+    // Some hundred floats wide: the radius is hardly above 64 of them.
+    ([1.0; 3], [1.00005, 1.00004, 1.00003], 64.2 / (1 << 23) as f64),
+    ([1.0; 3], [1.0000107; 3], 89.0 / (1 << 23) as f64),
+    ([-1e37, 1e36, 0.0], [1e38, 2e38, 1.5e38], 2e37),
+    ([-1e-30; 3], [3.3e-30, 2e-30, 0.0], 4e-31),
+    // Wider than a block on one axis, on two and on three.
+    ([0.0; 3], [10.0, 0.1, 0.3], 0.25),
+    ([0.0; 3], [2.5, 2.5, 0.1], 0.1),
+    ([0.0, 0.5, -1.0], [1.0, 1.45, 0.1], 0.049),
+];
+
 /// The shortest distance of two points, which may lie anywhere; on a torus, of their images.
 pub fn distance(domain: &Domain<3>, a: Point, b: Point) -> f64 {
     let square = |axis: usize| {

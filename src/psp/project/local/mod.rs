@@ -2,9 +2,9 @@
 //!
 //! The surface is divided into blocks, cubes of space, and each of them into charts, cones of normals (`charts.rs`). Each
 //! chart has a plane with a turn and an offset of its own into one planar maximal pattern (`torus.rs`), whose points are
-//! projected along the axis of the chart (`projector.rs`, `block.rs`). Within a chart nothing is to be merged: distances
-//! on the plane are kept. So only candidates near another chart or block are tested (`choice.rs`, `near.rs`); the larger charts come
-//! first.
+//! projected along the axis of the chart (`projector.rs`, `block.rs`). Within a chart nothing is to be merged: hits are as
+//! far apart as their points on the plane, at least. So only candidates near another chart or block are tested
+//! (`choice.rs`, `near.rs`).
 //!
 //! Departs from the thesis, which projects three patterns through the whole mesh: there every place is seen three times,
 //! mostly at a slant, and everything has to be merged.
@@ -34,6 +34,7 @@ use crate::psp::set::{Sample, SampleSet};
 
 /// The side of a block in cubes of a set.
 const CUBES: f64 = 2.0;
+
 /// The pattern of local projectors, and the mesh for rays if these are the engine.
 pub struct LocalProjection {
     torus: Torus,
