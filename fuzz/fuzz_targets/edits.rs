@@ -6,35 +6,19 @@
 use std::collections::BTreeMap;
 use std::ptr::null;
 
-use azulejo_c::kdrt::{azulejo_kdrt_options, azulejo_kdrt_options_init, azulejo_kdrt_report_init};
+use azulejo_c::kdrt::{azulejo_kdrt_options, azulejo_kdrt_report_init};
 use azulejo_c::plane_edit::*;
 use azulejo_c::points::{azulejo_points, azulejo_points_count, azulejo_points_ids};
 use azulejo_c::region::{azulejo_region, azulejo_region_init};
 use azulejo_fuzz::calls::{Arrays, Out, Owned, Patience, accepted, array, context, create, report};
 use azulejo_fuzz::input::Input;
-use azulejo_fuzz::plane::{Given, Set, check_covered, check_set};
+use azulejo_fuzz::plane::{Given, Set, any_options, check_covered, check_set};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let mut input = Input::new(bytes);
-    let min = [input.coordinate(), input.coordinate()].map(f64::from);
-    let sides = [input.number(), input.number()];
-    let radius = sides[0].min(sides[1]) * input.number() / 16.0;
-    // With hostile numbers nothing of this holds, and the calls refuse.
-    if (sides[0] / radius + 2.0) * (sides[1] / radius + 2.0) > 1000.0 {
-        return;
-    }
     let patience = Patience::new(u32::MAX);
-    let options = azulejo_kdrt_options {
-        boundary: u32::from(input.one_in(2)),
-        radius,
-        domain_min: min,
-        domain_max: [min[0] + sides[0], min[1] + sides[1]],
-        seed: input.any(),
-        progress: Some(Patience::tell),
-        progress_user: patience.user(),
-        ..report(azulejo_kdrt_options_init)
-    };
+    let Some(options) = any_options(&mut input, &patience) else { return };
     let Some(mut session) = Session::begin(&options, &mut input) else { return };
     for _ in 0..input.below(16) {
         patience.again(if input.one_in(8) { input.below(4) } else { u32::MAX });

@@ -12,38 +12,16 @@ use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_fuzz::calls::{Out, Patience, accepted, array, context, create, report};
 use azulejo_fuzz::input::Input;
-use azulejo_fuzz::plane::{Given, Set, check, check_coverage, check_covered, check_set, owned};
+use azulejo_fuzz::plane::{Given, Set, any_options, check, check_coverage, check_covered, check_set, owned};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     let mut input = Input::new(bytes);
-    let min = [input.coordinate(), input.coordinate()].map(f64::from);
-    let sides = [input.number(), input.number()];
-    let radius = sides[0].min(sides[1]) * input.number() / 16.0;
-    // With hostile numbers nothing of this holds, and the calls refuse.
-    if (sides[0] / radius + 2.0) * (sides[1] / radius + 2.0) > 1000.0 {
-        return;
-    }
     let patience = Patience::new(if input.one_in(4) { input.below(50) } else { u32::MAX });
-    let options = azulejo_kdrt_options {
-        struct_size: size_of::<azulejo_kdrt_options>() as u32,
-        boundary: u32::from(input.one_in(2)),
-        radius,
-        domain_min: min,
-        domain_max: [min[0] + sides[0], min[1] + sides[1]],
-        leaf_size: if input.one_in(4) { 6.0 * input.number() } else { 6.0 },
-        seed: input.any(),
-        progress: Some(Patience::tell),
-        progress_user: patience.user(),
-        count: 0,
-        measure_covering_radius: 0,
-        order: 0,
-        quotient: 0.0,
-        coarsest: 0.0,
-        given_positions: std::ptr::null(),
-        given_clearances: std::ptr::null(),
-        given_count: 0,
-    };
+    let Some(mut options) = any_options(&mut input, &patience) else { return };
+    if input.one_in(4) {
+        options.leaf_size = 6.0 * input.number();
+    }
     let given = Given::any(&options, &mut input);
     let arranged = given.in_options(&in_order(&options, &mut input));
     match input.below(7) {

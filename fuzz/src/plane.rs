@@ -1,12 +1,33 @@
 //! The guarantees of sets of the plane: distances, ranks, and coverage by cutting the domain into pieces.
 
-use azulejo_c::kdrt::azulejo_kdrt_options;
+use azulejo_c::kdrt::{azulejo_kdrt_options, azulejo_kdrt_options_init};
 use azulejo_c::points::azulejo_points;
 use azulejo_core::{Boundary, Domain};
 
-use crate::calls::{Arrays, Owned, check_distances};
+use crate::calls::{Arrays, Owned, Patience, check_distances, report};
 use crate::disks::find_gap;
 use crate::input::Input;
+
+/// A domain of any place and shape with a radius that suits it, and a seed. `None` for hostile numbers that leave room for
+/// more samples than can be checked.
+pub fn any_options(input: &mut Input, patience: &Patience) -> Option<azulejo_kdrt_options> {
+    let min = [input.coordinate(), input.coordinate()].map(f64::from);
+    let sides = [input.number(), input.number()];
+    let radius = sides[0].min(sides[1]) * input.number() / 16.0;
+    if (sides[0] / radius + 2.0) * (sides[1] / radius + 2.0) > 1000.0 {
+        return None;
+    }
+    Some(azulejo_kdrt_options {
+        boundary: u32::from(input.one_in(2)),
+        radius,
+        domain_min: min,
+        domain_max: [min[0] + sides[0], min[1] + sides[1]],
+        seed: input.any(),
+        progress: Some(Patience::tell),
+        progress_user: patience.user(),
+        ..report(azulejo_kdrt_options_init)
+    })
+}
 
 fn domain(options: &azulejo_kdrt_options) -> Domain {
     let boundary = if options.boundary == 0 { Boundary::Periodic } else { Boundary::Bounded };

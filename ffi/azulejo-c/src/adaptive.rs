@@ -12,6 +12,7 @@ use crate::given::given;
 use crate::growing::{self, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
+use crate::of_position::OfPosition;
 use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
@@ -93,23 +94,6 @@ growing!(azulejo_psp_adaptive_options requires slope {
     quotient: 0.0,
 });
 
-/// The caller's function and its user pointer, as the core calls it.
-struct Callback {
-    function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
-    user: *mut c_void,
-}
-
-// SAFETY: guaranteed by the caller, as the type of the function requires: it may be called from several threads at
-// once.
-unsafe impl Sync for Callback {}
-
-impl Callback {
-    fn call(&self, position: [f64; 3]) -> f64 {
-        // SAFETY: the caller gave the two for each other, to be called during this call.
-        unsafe { (self.function)(self.user, position.as_ptr()) }
-    }
-}
-
 /// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
@@ -165,9 +149,10 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
         let mesh = unsafe { handles::get("mesh", mesh) }?.shared.clone();
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
-        let callback =
-            options.radius_function.map(|function| Callback { function, user: options.radius_function_user });
-        let at = callback.as_ref().map(|callback| |position| callback.call(position));
+        let user = options.radius_function_user;
+        // SAFETY: handed on from the caller.
+        let function = options.radius_function.map(|function| unsafe { OfPosition::new(function, user) });
+        let at = function.as_ref().map(|function| |position| function.call(position));
         // SAFETY: handed on from the caller.
         let radii = unsafe { options.vertex_radii() }?;
         let azulejo_psp_adaptive_options { smallest, largest, slope, .. } = options;

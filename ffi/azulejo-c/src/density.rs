@@ -9,6 +9,7 @@ use crate::context::azulejo_context;
 use crate::dcr::{azulejo_dcr_options, azulejo_dcr_report};
 use crate::growing::{self, Output, growing};
 use crate::handles;
+use crate::of_position::OfPosition;
 use crate::points::azulejo_points;
 use crate::status::{Failure, azulejo_status};
 
@@ -52,23 +53,6 @@ growing!(azulejo_density requires function_user {
     function_user: std::ptr::null_mut(),
 });
 
-/// The caller's function and its user pointer, as the core calls it.
-struct Callback {
-    function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
-    user: *mut c_void,
-}
-
-// SAFETY: guaranteed by the caller, as the type of the function requires: it may be called from several threads at
-// once.
-unsafe impl Sync for Callback {}
-
-impl Callback {
-    fn call(&self, position: [f64; 2]) -> f64 {
-        // SAFETY: the caller gave the two for each other, to be called during this call.
-        unsafe { (self.function)(self.user, position.as_ptr()) }
-    }
-}
-
 impl azulejo_density {
     /// Hands the density to `body`.
     ///
@@ -83,8 +67,9 @@ impl azulejo_density {
             (Some(function), true) => {
                 check_unused("width", self.width, 0, "with function")?;
                 check_unused("height", self.height, 0, "with function")?;
-                let callback = Callback { function, user: self.function_user };
-                body(&Density::Function(&|position| callback.call(position)))
+                // SAFETY: the caller's word.
+                let function = unsafe { OfPosition::new(function, self.function_user) };
+                body(&Density::Function(&|position| function.call(position)))
             }
             (None, false) => {
                 let (width, height) = (self.width, self.height);

@@ -156,6 +156,7 @@ mod boundary;
 mod given;
 mod growing;
 mod handles;
+mod of_position;
 #[cfg(all(test, not(miri)))]
 mod option_table;
 

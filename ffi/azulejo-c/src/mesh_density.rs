@@ -11,6 +11,7 @@ use crate::context::azulejo_context;
 use crate::growing::{self, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
+use crate::of_position::OfPosition;
 use crate::points::azulejo_points;
 use crate::psp::azulejo_psp_options;
 use crate::psp_classes::ClassCall;
@@ -96,23 +97,6 @@ growing!(azulejo_mesh_density requires count {
     count: 0.0,
 });
 
-/// The caller's function and its user pointer, as the core calls it.
-struct Callback {
-    function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,
-    user: *mut c_void,
-}
-
-// SAFETY: guaranteed by the caller, as the type of the function requires: it may be called from several threads at
-// once.
-unsafe impl Sync for Callback {}
-
-impl Callback {
-    fn call(&self, position: [f64; 3]) -> f64 {
-        // SAFETY: the caller gave the two for each other, to be called during this call.
-        unsafe { (self.function)(self.user, position.as_ptr()) }
-    }
-}
-
 impl azulejo_mesh_density {
     /// Hands the density, as what a radius follows from, to `body`.
     ///
@@ -154,8 +138,9 @@ impl azulejo_mesh_density {
         }
         let call = |density: Density| body(Radius::Density { density, scale });
         if let Some(function) = self.function {
-            let callback = Callback { function, user: self.function_user };
-            let at = |position| callback.call(position);
+            // SAFETY: the caller's word.
+            let function = unsafe { OfPosition::new(function, self.function_user) };
+            let at = |position| function.call(position);
             return call(if at_vertices {
                 Density::AtVertices(&at)
             } else {
