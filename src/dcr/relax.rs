@@ -133,10 +133,10 @@ impl From<DelaunayOptions> for Options {
 /// is above 0.67 `d_max`; of several, the last. In all other cases the set after the last whole step is returned. A
 /// call that is cancelled returns the same, with [`Stopped::Cancelled`](super::Stopped::Cancelled).
 ///
-/// Each step is O(n) for sets without dense clusters, but O(n log n) where a Delaunay triangulation is built anew:
-/// always by the thesis's method, and by the momentum method while more than 64 points have holes as wide as the domain,
-/// or points have dozens of neighbours. A bounded domain costs up to four times the time and memory of a
-/// periodic one, as the momentum method works on it and its mirror images. Memory is O(n).
+/// Each step is O(n) for sets without dense clusters, but O(n log n) where a Delaunay triangulation is built anew: while
+/// more than 64 points have holes as wide as the domain, or points have dozens of neighbours, and by the thesis's method
+/// also after steps that turn a triangle over, as the first from random points do. A bounded domain costs up to four
+/// times the time and memory of a periodic one, as the triangulation is one of it and its mirror images. Memory is O(n).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for options out of their range and for points outside the

@@ -95,7 +95,9 @@ impl Frame {
     pub fn fold(&self, position: DVec2) -> DVec2 {
         let axis = |x: f64, length: f64| match self.domain.boundary {
             // Rounding can turn a small negative remainder into the length itself.
+            Boundary::Periodic if (0.0..length).contains(&x) => x,
             Boundary::Periodic => Some(x.rem_euclid(length)).filter(|&x| x < length).unwrap_or(0.0),
+            Boundary::Bounded if (INSET..=length - INSET).contains(&x) => x,
             Boundary::Bounded => {
                 let x = x.rem_euclid(2.0 * length);
                 x.min(2.0 * length - x).clamp(INSET, length - INSET)
@@ -110,6 +112,9 @@ impl Frame {
             Boundary::Bounded => to - from,
             Boundary::Periodic => {
                 let offset = to - from;
+                if offset.abs().cmplt(0.5 * self.size).all() {
+                    return offset;
+                }
                 offset - self.size * (offset / self.size).round()
             }
         }

@@ -299,10 +299,10 @@ pub(crate) fn reason(stopped: Stopped) -> u32 {
 /// have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67
 /// d_max; otherwise the state after the last whole step.
 ///
-/// O(count) time for each step, O(count * log count) where the triangulation is built again: in
-/// each step of AZULEJO_METHOD_THESIS, with AZULEJO_METHOD_MOMENTUM while more than 64 points have
-/// holes as wide as the domain. A bounded domain takes up to four times the time and memory of a
-/// periodic one. O(count) memory.
+/// O(count) time for each step, O(count * log count) where the triangulation is built again: while
+/// more than 64 points have holes as wide as the domain, with AZULEJO_METHOD_THESIS also after steps
+/// that turn a triangle over, as the first from random points do. A bounded domain takes up to four
+/// times the time and memory of a periodic one. O(count) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
     context: *const azulejo_context,

@@ -38,8 +38,10 @@ impl Particle {
 /// The constants of the forces.
 pub struct Forces {
     conflict_radius: f64,
-    /// Infinite where neighbours do not attract.
     attraction_radius: f64,
+    /// The inverses of the radii; the second is 0 where neighbours do not attract.
+    per_conflict_radius: f64,
+    per_attraction_radius: f64,
     /// λ.
     pub step: f64,
     distribution: Distribution,
@@ -51,9 +53,11 @@ impl Forces {
     pub fn new(neighbourhood: Neighbourhood, thesis: &Thesis, seed: u64) -> Self {
         Self {
             conflict_radius: thesis.conflict_radius,
-            attraction_radius: match neighbourhood {
-                Neighbourhood::Delaunay => thesis.attraction_radius,
-                Neighbourhood::Nearest => f64::INFINITY,
+            attraction_radius: thesis.attraction_radius,
+            per_conflict_radius: thesis.conflict_radius.recip(),
+            per_attraction_radius: match neighbourhood {
+                Neighbourhood::Delaunay => thesis.attraction_radius.recip(),
+                Neighbourhood::Nearest => 0.0,
             },
             step: thesis.step,
             distribution: thesis.distribution,
@@ -62,21 +66,18 @@ impl Forces {
         }
     }
 
-    /// The force on a point by a neighbour at `offset`: eq. 4.10 with the division by the radius that the algorithm
-    /// has and the equation lacks.
-    fn tension(&self, offset: DVec2) -> DVec2 {
-        let distance = offset.length();
-        let strength = if distance < self.conflict_radius {
-            (distance - self.conflict_radius) / self.conflict_radius
-        } else if distance > self.attraction_radius {
-            (distance - self.attraction_radius) / self.attraction_radius
-        } else {
-            return DVec2::ZERO;
-        };
-        strength * offset.normalize_or_zero()
+    /// The tension of a link of this length, negative where it pushes: eq. 4.10 with the division by the radius that the
+    /// algorithm has and the equation lacks.
+    #[inline(always)]
+    fn tension(&self, distance: f64) -> f64 {
+        // Without branches, which links of random lengths would mislead.
+        let conflict = (distance - self.conflict_radius) * self.per_conflict_radius;
+        let attraction = (distance - self.attraction_radius) * self.per_attraction_radius;
+        conflict.min(0.0) + attraction.max(0.0)
     }
 
     /// The number of visits to a link by the point, and by the neighbour.
+    #[inline(always)]
     fn visits(&self, point: u32, link: &Link) -> [f64; 2] {
         let is_mutual = link.outgoing && link.incoming;
         match self.visits {
@@ -92,6 +93,7 @@ impl Forces {
     }
 
     /// The fraction of a tension that a point takes when it visits, and when it is visited.
+    #[inline(always)]
     fn shares(&self, particle: &Particle, other: &Particle) -> [f64; 2] {
         match self.distribution {
             Distribution::Activeness => {
@@ -106,25 +108,30 @@ impl Forces {
     }
 
     /// The point after one step; its position has not been folded back into the domain.
+    #[inline(always)]
     pub fn advance(&self, links: &impl Links, particles: &[Particle], point: usize) -> Particle {
         let particle = particles[point];
         let (mut displacement, mut tension, mut tensions) = (DVec2::ZERO, DVec2::ZERO, 0.0);
         links.for_each(point, |link| {
-            let force = self.tension(link.offset);
+            let distance = link.offset.length();
+            let strength = self.tension(distance);
+            // Coincident points have no direction.
+            let force = if distance > 0.0 { strength / distance } else { 0.0 } * link.offset;
             let [own, given] = self.shares(&particle, &particles[link.other as usize]);
             let [visiting, visited] = self.visits(point as u32, &link);
             displacement += (visiting * own + visited * given) * force;
             // Every visit is felt at both ends.
             let visits = visiting + visited;
             tension += visits * force;
-            tensions += visits * force.length();
+            tensions += visits * strength.abs();
         });
         let reversed = -tension.dot(particle.tension);
-        let oscillates = reversed > OSCILLATION_COSINE * tension.length() * particle.tension.length();
+        let length = tension.length();
+        let oscillates = reversed > OSCILLATION_COSINE * length * particle.tension.length();
         let yielding = match tensions {
             _ if oscillates => 0.0,
             0.0 => 1.0,
-            sum => (tension.length() / sum).min(1.0),
+            sum => (length / sum).min(1.0),
         };
         Particle { position: particle.position + self.step * displacement, yielding, tension }
     }

@@ -58,13 +58,38 @@ impl Links for DelaunayLinks {
 //
 // Neighbours beyond the conflict radius exert no force, so of the `K` nearest only those within it are found.
 
-/// The points and their copies in a grid, and the reach of each point's neighbourhood.
-pub struct NearestLinks {
+/// The points and their copies in a grid.
+pub struct SiteGrid {
     sites: Vec<Site>,
     grid: Grid2,
     radius: f64,
+}
+
+impl SiteGrid {
+    /// For searches up to `radius`. Takes O(n).
+    pub fn new(frame: &Frame, positions: impl ExactSizeIterator<Item = DVec2> + Clone, radius: f64) -> Self {
+        let sites = frame.sites(positions, radius);
+        let max = (frame.size() + radius).to_array();
+        let around = Domain { min: [-radius; 2], max, boundary: Boundary::Bounded };
+        let grid = Grid2::new(around, sites.iter().map(|site| site.position.to_array()), radius);
+        Self { sites, grid, radius }
+    }
+
+    /// Visits all other sites within the radius of a point, with offsets and squared distances.
+    pub fn for_each(&self, point: usize, mut visit: impl FnMut(&Site, DVec2, f64)) {
+        self.grid.for_each_within(self.sites[point].position.to_array(), self.radius, |site, offset, squared| {
+            if site as usize != point {
+                visit(&self.sites[site as usize], DVec2::from_array(offset), squared);
+            }
+        });
+    }
+}
+
+/// The links between nearest points, found anew.
+pub struct NearestLinks {
+    around: SiteGrid,
     /// The squared distance of each point's `K`-th nearest neighbour, a little more, and infinite if that is beyond
-    /// `radius`. A point as far as the `K`-th belongs to the neighbourhood too: ties are not broken.
+    /// the radius. A point as far as the `K`-th belongs to the neighbourhood too: ties are not broken.
     reach: Vec<f64>,
 }
 
@@ -79,15 +104,17 @@ impl NearestLinks {
         count: usize,
     ) -> Result<Self> {
         let points = chunks(positions.len());
-        let sites = frame.sites(positions, radius);
-        let max = (frame.size() + radius).to_array();
-        let around = Domain { min: [-radius; 2], max, boundary: Boundary::Bounded };
-        let grid = Grid2::new(around, sites.iter().map(|site| site.position.to_array()), radius);
+        let around = SiteGrid::new(frame, positions, radius);
         let reach = job.flat_map(points.len(), |chunk| {
             let mut nearest = Vec::new();
-            points.range(chunk).map(|point| reach(&grid, &sites, point, radius, count, &mut nearest)).collect()
+            let within = |point| {
+                nearest.clear();
+                around.for_each(point, |_, _, squared| nearest.push(squared));
+                reach(&mut nearest, count)
+            };
+            points.range(chunk).map(within).collect()
         })?;
-        Ok(Self { sites, grid, radius, reach })
+        Ok(Self { around, reach })
     }
 }
 
@@ -95,27 +122,20 @@ impl NearestLinks {
 /// from the other to the copy of the point.
 const ROUNDING: f64 = 1e-9;
 
-/// The squared reach of a neighbourhood; `nearest` is working memory.
-fn reach(grid: &Grid2, sites: &[Site], point: usize, radius: f64, count: usize, nearest: &mut Vec<f64>) -> f64 {
-    nearest.clear();
-    grid.for_each_within(sites[point].position.to_array(), radius, |site, _, squared| {
-        if site as usize != point {
-            nearest.push(squared);
-        }
-    });
-    if nearest.len() < count {
+/// The squared reach of a neighbourhood of `count` points, by the squared distances of all within the radius.
+pub fn reach(squared: &mut [f64], count: usize) -> f64 {
+    if squared.len() < count {
         return f64::INFINITY;
     }
-    square(nearest.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING)
+    square(squared.select_nth_unstable_by(count - 1, f64::total_cmp).1.sqrt() + ROUNDING)
 }
 
 impl Links for NearestLinks {
     fn for_each(&self, point: usize, mut visit: impl FnMut(Link)) {
-        self.grid.for_each_within(self.sites[point].position.to_array(), self.radius, |site, offset, squared| {
-            let other = self.sites[site as usize].source;
+        self.around.for_each(point, |&Site { source: other, .. }, offset, squared| {
             let (outgoing, incoming) = (squared <= self.reach[point], squared <= self.reach[other as usize]);
-            if site as usize != point && (outgoing || incoming) {
-                visit(Link { other, offset: DVec2::from_array(offset), outgoing, incoming });
+            if outgoing || incoming {
+                visit(Link { other, offset, outgoing, incoming });
             }
         });
     }

@@ -1,4 +1,7 @@
-//! The method of the thesis (§4.3): tensions shared by activeness, in a neighbourhood that is found anew in every step.
+//! The method of the thesis (§4.3): tensions shared by activeness, in a neighbourhood of every state.
+//!
+//! The neighbourhood is kept from step to step and repaired: a Delaunay mesh by flips ([`KeptMesh`]), nearest points in
+//! lists with a skin ([`KeptLists`]). Where that is not possible it is found anew ([`Links`]).
 //!
 //! This module follows the thesis's algorithm (§4.3.3) where the thesis contradicts itself:
 //!
@@ -23,14 +26,18 @@
 //! price of holes, as nothing attracts. `docs/dcr.md` compares both with the thesis's tables.
 
 mod forces;
+mod kept;
 mod links;
+mod lists;
 
 use glam::DVec2;
 
 use crate::dcr::law::Neighbourhood;
 use crate::dcr::relaxation::{PlaneRelaxation, Relaxation, Space};
 use crate::dcr::thesis::forces::{Forces, Particle};
+use crate::dcr::thesis::kept::KeptMesh;
 use crate::dcr::thesis::links::{DelaunayLinks, Links, NearestLinks};
+use crate::dcr::thesis::lists::KeptLists;
 use crate::error::{Error, Result};
 use crate::geometry::{Delaunay, Frame, along_strips};
 use crate::index::Grid2;
@@ -178,6 +185,8 @@ pub struct ThesisRelaxation {
     /// The positions of the particles before degenerate arrangements are parted.
     start: Vec<DVec2>,
     particles: Vec<Particle>,
+    mesh: KeptMesh,
+    lists: KeptLists,
     /// The thesis's test, if it is the one that ends the steps.
     variance: Option<Variance>,
 }
@@ -200,6 +209,8 @@ impl ThesisRelaxation {
             order,
             start,
             particles: positions.iter().copied().map(Particle::new).collect(),
+            mesh: KeptMesh::new(domain, frame, points.len()),
+            lists: KeptLists::new(frame, thesis.conflict_radius, thesis.neighbours as usize, points.len()),
             variance: (thesis.convergence == Convergence::Variance).then(Variance::default),
         }
     }
@@ -214,6 +225,15 @@ impl ThesisRelaxation {
             };
             chunks.range(chunk).map(moved).collect()
         })
+    }
+
+    fn delaunay_links(&self, job: &Job) -> Result<DelaunayLinks> {
+        DelaunayLinks::new(job, &self.frame, self.particle_positions())
+    }
+
+    fn nearest_links(&self, job: &Job) -> Result<NearestLinks> {
+        let (radius, count) = (self.thesis.conflict_radius, self.thesis.neighbours as usize);
+        NearestLinks::new(job, &self.frame, self.particle_positions(), radius, count)
     }
 
     fn particle_positions(&self) -> impl ExactSizeIterator<Item = DVec2> + Clone {
@@ -244,17 +264,22 @@ impl Relaxation for ThesisRelaxation {
     }
 
     fn step(&mut self, job: &Job, _: u32) -> Result<()> {
-        let (prepare, gather, judge) = (job.part(0.0, 0.5), job.part(0.5, 0.9), job.part(0.9, 1.0));
+        let (follow, find) = (job.part(0.0, 0.3), job.part(0.3, 0.5));
+        let (gather, judge) = (job.part(0.5, 0.9), job.part(0.9, 1.0));
         let moved = match self.neighbourhood {
             Neighbourhood::Delaunay => {
-                self.gather(&gather, &DelaunayLinks::new(&prepare, &self.frame, self.particle_positions())?)?
+                self.mesh.follow(&follow, &self.particles)?;
+                match self.mesh.links(&self.particles) {
+                    Some(links) => self.gather(&gather, &links)?,
+                    None => self.gather(&gather, &self.delaunay_links(&find)?)?,
+                }
             }
             Neighbourhood::Nearest => {
-                let (radius, count) = (self.thesis.conflict_radius, self.thesis.neighbours as usize);
-                self.gather(
-                    &gather,
-                    &NearestLinks::new(&prepare, &self.frame, self.particle_positions(), radius, count)?,
-                )?
+                self.lists.follow(&follow, &self.particles)?;
+                match self.lists.links(&self.particles) {
+                    Some(links) => self.gather(&gather, &links)?,
+                    None => self.gather(&gather, &self.nearest_links(&find)?)?,
+                }
             }
         };
         if let Some(variance) = &mut self.variance {
@@ -268,6 +293,9 @@ impl Relaxation for ThesisRelaxation {
 
     /// Without a step the points are returned as they were given, and so they are measured.
     fn finish(&mut self, _: &Job, iterations: u32) -> Result<()> {
+        // What was kept takes memory that the measures need.
+        self.mesh.forget();
+        self.lists.forget();
         if iterations == 0 {
             self.particles = self.start.iter().copied().map(Particle::new).collect();
         }
@@ -356,6 +384,61 @@ mod tests {
 
     use crate::job::Context;
     use crate::points::Boundary;
+    use crate::rng::{Draw, Rng};
+
+    /// From random starts, which turn triangles over, and on domains of all shapes: after every step the points are
+    /// where a neighbourhood that is found anew moves them.
+    #[test]
+    fn kept_neighbourhoods_move_points_as_those_that_are_found_anew() {
+        let context = Context::new(1).unwrap();
+        let mut kept = 0;
+        for (boundary, width, count) in [
+            (Boundary::Periodic, 1.0, 900),
+            (Boundary::Bounded, 1.0, 900),
+            (Boundary::Periodic, 7.0, 700),
+            (Boundary::Bounded, 7.0, 700),
+            (Boundary::Periodic, 1.0, 40),
+            (Boundary::Bounded, 300.0, 500),
+        ] {
+            let domain = Domain { min: [0.0; 2], max: [width, 1.0], boundary };
+            let mut rng = Rng::at(11, Draw::Probe, &[count as u64]);
+            let points: Vec<_> = (0..count).map(|_| [(width * rng.unit()) as f32, rng.unit() as f32]).collect();
+            for neighbourhood in [Neighbourhood::Delaunay, Neighbourhood::Nearest] {
+                // Few nearest neighbours, so that it matters which ones are nearest, and a step with which points stray.
+                let thesis = Thesis::default().neighbours(2).step(0.1);
+                let mut set = ThesisRelaxation::new(domain, neighbourhood, &thesis, 3, &points);
+                let step = |job: &Job| {
+                    for iteration in 0..50 {
+                        let anew = match neighbourhood {
+                            Neighbourhood::Delaunay => set.gather(job, &set.delaunay_links(job)?)?,
+                            Neighbourhood::Nearest => set.gather(job, &set.nearest_links(job)?)?,
+                        };
+                        set.step(job, iteration)?;
+                        for (moved, anew) in set.particles.iter().zip(&anew) {
+                            let apart = set.frame.offset(moved.position, anew.position).length();
+                            assert!(apart < 1e-9, "{neighbourhood:?} {domain:?}, step {iteration}: {apart}");
+                        }
+                        kept += u32::from(set.mesh.links(&set.particles).is_some());
+                        kept += u32::from(set.lists.links(&set.particles).is_some());
+                    }
+                    Ok(())
+                };
+                context.run(None, step).unwrap();
+            }
+        }
+        // All but the meshes of a few points, the lists of the strip, and meshes of a few steps with wide holes.
+        assert!((480..=500).contains(&kept), "{kept}");
+    }
+
+    /// In a heap of points everything would be listed.
+    #[test]
+    fn clusters_are_not_listed() {
+        let frame = Frame::new(Domain::unit(Boundary::Periodic), 4000);
+        let heap: Vec<_> = (0..4000).map(|i| Particle::new(DVec2::new(1e-6 * f64::from(i), 1.0))).collect();
+        let mut lists = KeptLists::new(frame, 0.95, 6, heap.len());
+        Context::new(1).unwrap().run(None, |job| lists.follow(job, &heap)).unwrap();
+        assert!(lists.links(&heap).is_none());
+    }
 
     #[test]
     fn distances_go_around_the_torus_and_their_variance_is_that_of_all() {

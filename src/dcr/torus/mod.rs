@@ -125,8 +125,9 @@ impl Torus {
 
     /// The point of the domain at a position of the torus, or the one that it is the image of.
     pub fn place(&self, position: DVec2) -> TorusPoint {
-        // A position that rounds up to a whole period wraps to 0.
-        let fractions = (position / self.unit).round().to_array().map(|x| x as i64 as u32);
+        // Away from 0 where halves are: what `round` does, but without a call. A position that rounds up to a whole period
+        // wraps to 0.
+        let fractions = (position / self.unit).to_array().map(|x| (x + 0.5f64.copysign(x)) as i64 as u32);
         self.inside(fractions)
     }
 

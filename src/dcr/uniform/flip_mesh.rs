@@ -123,6 +123,11 @@ impl FlipMesh {
         self.cover.is_none()
     }
 
+    /// The neighbours of a point in a mesh that holds points back, counter-clockwise.
+    pub fn ring(&self, point: usize) -> &[u32] {
+        self.rings.ring(point)
+    }
+
     /// The positions in the mesh of points at these places, with which it was made or last mended.
     fn places<'a>(&'a self, places: &'a [TorusPoint]) -> &'a [TorusPoint] {
         self.cover.as_ref().map_or(places, |cover| &cover.places)

@@ -21,6 +21,7 @@ mod rings;
 mod stars;
 
 pub use classes::{ClassReport, relax_classes};
+pub use flip_mesh::FlipMesh;
 
 use std::array::from_fn;
 use std::ops::Range;
@@ -33,7 +34,6 @@ use crate::dcr::torus::{
     CLUSTERED, CurveOrder, LONG_WAVES, MirrorBoundary, Neighbours, Torus, TorusPoint, WaveGrid, leveled,
 };
 use crate::dcr::uniform::cells::VerletCells;
-use crate::dcr::uniform::flip_mesh::FlipMesh;
 use crate::dcr::uniform::rings::{Edge, Rings};
 use crate::dcr::uniform::stars::{EIGHT, Gathered, Visitor};
 use crate::error::Result;
