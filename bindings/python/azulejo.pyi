@@ -1,4 +1,4 @@
-"""Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation."""
+"""Blue-noise sampling: maximal Poisson-disk sets in the plane, on triangle meshes and in space, and their relaxation."""
 
 from collections.abc import Callable, Sequence
 from os import PathLike
@@ -73,6 +73,14 @@ class KdrtReport:
     def radius(self) -> float: ...
     @property
     def is_maximal(self) -> bool: ...
+
+class VolumeReport:
+    @property
+    def radius(self) -> float: ...
+    @property
+    def covering_radius(self) -> float: ...
+    @property
+    def seconds(self) -> float: ...
 
 class KdrtMergeReport:
     @property
@@ -447,6 +455,21 @@ def maximal_sample(
     domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def volume_sample(
+    radius: Optional[SupportsFloat] = 0.0,
+    *,
+    count: Optional[SupportsIndex] = 0,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...

@@ -18,14 +18,16 @@ mod spectrum;
 mod stream;
 mod taken;
 mod thin;
+mod volume;
 mod watch;
 
-/// Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
+/// Blue-noise sampling: maximal Poisson-disk sets in the plane, on triangle meshes and in space, and their relaxation.
 ///
 /// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample,
-/// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density, Psp. Relaxation:
-/// dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Analysis:
-/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
+/// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density, Psp. Cuboids:
+/// volume_sample. Relaxation: dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax, dcr_remesh.
+/// Clouds: thin. Analysis: plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are
+/// sets that are edited.
 ///
 /// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
 /// for any number of threads and on every machine.
@@ -74,6 +76,8 @@ mod azulejo {
     use crate::stream::kdrt_stream;
     #[pymodule_export]
     use crate::thin::{Selection, thin};
+    #[pymodule_export]
+    use crate::volume::{VolumeReport, volume_sample};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -9,10 +9,28 @@ use crate::array::{Array, Entry, line, line_if_any, table};
 use crate::error::invalid;
 use crate::frame::{Frame, Rows, in_frame};
 
+/// What samples lie in or on.
+#[derive(Clone, Copy)]
+pub(crate) enum Place {
+    Plane(Frame),
+    Cuboid(Frame<3>),
+    Mesh,
+}
+
+impl Place {
+    /// The domain of samples of the plane.
+    pub(crate) fn plane(self) -> Option<Frame> {
+        match self {
+            Self::Plane(frame) => Some(frame),
+            _ => None,
+        }
+    }
+}
+
 /// Samples. len() is their number n; numpy.asarray() gives their positions. What does not apply is None.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Points {
-    /// Positions, shape (n, 2) in the plane or (n, 3) on meshes, in the units of the domain or mesh: float32, or float64
+    /// Positions, shape (n, 2) in the plane or (n, 3) in space, in the units of the domain or mesh: float32, or float64
     /// where the domain or mesh has an origin that is not 0, which is then added to local_positions.
     #[pyo3(get)]
     positions: Py<PyAny>,
@@ -24,8 +42,7 @@ pub(crate) struct Points {
     #[pyo3(get)]
     origin: Py<PyArray1<f64>>,
     pub(crate) has_origin: bool,
-    /// In the plane: the domain.
-    pub(crate) frame: Option<Frame>,
+    pub(crate) place: Place,
     /// On meshes: unit normals of the samples' triangles, float32, shape (n, 3).
     #[pyo3(get)]
     normals: Option<Py<PyArray2<f32>>>,
@@ -59,15 +76,30 @@ pub(crate) struct Points {
 
 impl Points {
     pub(crate) fn plane(py: Python<'_>, points: impl Into<azulejo_core::Points<2>>, frame: &Frame) -> PyResult<Self> {
-        let azulejo_core::Points { positions, ranks, classes, .. } = points.into();
+        Self::inside(py, points.into(), frame, Place::Plane(*frame))
+    }
+
+    /// Samples of a cuboid.
+    pub(crate) fn cuboid(py: Python<'_>, points: azulejo_core::Points<3>, frame: &Frame<3>) -> PyResult<Self> {
+        Self::inside(py, points, frame, Place::Cuboid(*frame))
+    }
+
+    /// Samples of a domain.
+    fn inside<const N: usize>(
+        py: Python<'_>,
+        points: azulejo_core::Points<N>,
+        frame: &Frame<N>,
+        place: Place,
+    ) -> PyResult<Self> {
+        let azulejo_core::Points { positions, ranks, classes, .. } = points;
         let count = positions.len();
         let local = table(py, positions)?;
         Ok(Self {
             positions: in_frame(local.bind(py), frame.origin)?,
             local_positions: local.into_any(),
             origin: line(py, frame.origin.to_vec()),
-            has_origin: frame.origin != [0.0; 2],
-            frame: Some(*frame),
+            has_origin: frame.origin != [0.0; N],
+            place,
             normals: None,
             interpolated_normals: None,
             triangles: None,
@@ -109,7 +141,7 @@ impl Points {
             local_positions: local.into_any(),
             origin: line(py, origin.to_vec()),
             has_origin: origin != [0.0; 3],
-            frame: None,
+            place: Place::Mesh,
             normals: Some(table(py, normals)?),
             interpolated_normals: has_normals.then(|| table(py, interpolated_normals)).transpose()?,
             triangles: Some(line(py, triangles)),
@@ -183,22 +215,34 @@ fn entries<T: Entry>(py: Python<'_>, array: Option<&Py<PyArray1<T>>>) -> PyResul
 
 #[pymethods]
 impl Points {
-    /// In the plane: the lower corner of the domain, two numbers.
+    /// In the plane and in cuboids: the lower corner of the domain, two or three numbers.
     #[getter]
-    fn domain_min(&self) -> Option<[f64; 2]> {
-        self.frame.map(|frame| frame.whole.min)
+    fn domain_min(&self) -> Option<Vec<f64>> {
+        match self.place {
+            Place::Plane(frame) => Some(frame.whole.min.to_vec()),
+            Place::Cuboid(frame) => Some(frame.whole.min.to_vec()),
+            Place::Mesh => None,
+        }
     }
 
-    /// In the plane: the upper corner of the domain, two numbers.
+    /// In the plane and in cuboids: the upper corner of the domain, two or three numbers.
     #[getter]
-    fn domain_max(&self) -> Option<[f64; 2]> {
-        self.frame.map(|frame| frame.whole.max)
+    fn domain_max(&self) -> Option<Vec<f64>> {
+        match self.place {
+            Place::Plane(frame) => Some(frame.whole.max.to_vec()),
+            Place::Cuboid(frame) => Some(frame.whole.max.to_vec()),
+            Place::Mesh => None,
+        }
     }
 
-    /// In the plane: "periodic" or "bounded".
+    /// In the plane and in cuboids: "periodic" or "bounded".
     #[getter]
     fn boundary(&self) -> Option<&'static str> {
-        self.frame.map(|frame| frame.boundary())
+        match self.place {
+            Place::Plane(frame) => Some(frame.boundary()),
+            Place::Cuboid(frame) => Some(frame.boundary()),
+            Place::Mesh => None,
+        }
     }
 
     fn __len__(&self) -> usize {
