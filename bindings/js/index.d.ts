@@ -1,5 +1,6 @@
 /**
- * Blue-noise sampling: maximal Poisson-disk sets of the plane and of triangle meshes, relaxation, thinning, analysis.
+ * Blue-noise sampling: maximal Poisson-disk sets of the plane, of triangle meshes and of boxes, relaxation, thinning,
+ * analysis.
  *
  * A radius is the smallest distance between two samples, centre to centre. Positions are packed: x y or x y z of each
  * sample. The same options and seed give the same bytes, everywhere. Calls run to their end on the calling thread; use
@@ -29,7 +30,7 @@ export interface Domain {
 }
 
 export interface Given {
-    /** Existing samples, packed: they stay, are not returned, and cover the area within their clearance. */
+    /** Existing samples, packed: they stay, are not returned, and cover what is within their clearance. */
     givenPositions?: Numbers | null;
     /** The clearance of each, 0 or more; by default the radius of the set. */
     givenClearances?: Numbers | null;
@@ -144,6 +145,33 @@ export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples &
     radius: number;
     /** A bound of the distance of any place of the surface from the samples, where one is known. */
     coveringRadius?: number;
+};
+
+export interface VolumeOptions extends Given, Ordering {
+    /** The smallest distance of two samples, in the units of the domain. Required, unless there is a count. */
+    radius?: number;
+    /** The exact number of samples; 0, the default: as many as the radius gives. Given samples then need clearances. */
+    count?: number;
+    /** The lower corner of the cuboid; default [0, 0, 0]. */
+    domainMin?: readonly [number, number, number];
+    /** The upper corner; default [1, 1, 1]. Samples have `domainMin <= x < domainMax`. */
+    domainMax?: readonly [number, number, number];
+    /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
+    boundary?: "periodic" | "bounded";
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/** A maximal Poisson-disk set of a cuboid. */
+export function volumeSample(options: VolumeOptions): {
+    /** x y z of each sample. */
+    positions: Float32Array;
+    /** As those of PlaneSamples. */
+    ranks?: Float32Array;
+    /** The radius, that of the options or the one found for the count. */
+    radius: number;
+    /** A bound of the distance of any place of the cuboid from the samples: for a count it is above the radius. */
+    coveringRadius: number;
 };
 
 export interface RelaxOptions extends Domain {

@@ -1,5 +1,5 @@
-// azulejo for JavaScript: blue-noise sampling of planes and triangle meshes, relaxation, analysis, in WebAssembly on one
-// thread. index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that
+// azulejo for JavaScript: blue-noise sampling of planes, triangle meshes and boxes, relaxation, analysis, in WebAssembly on
+// one thread. index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that
 // what a call returns is an ordinary typed array of the caller's.
 
 let wasm;
@@ -35,6 +35,10 @@ const SURFACE = {
     radius: 0, count: 0, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, cosine: -1, iterations: -1, maximal: true,
     givenPositions: null, givenClearances: null,
 };
+const VOLUME = {
+    radius: 0, count: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic", seed: 0, order: "any",
+    quotient: DEFAULT_QUOTIENT, givenPositions: null, givenClearances: null,
+};
 const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
 const THIN = { radius: 0, count: 0, order: "any", seed: 0 };
@@ -69,13 +73,13 @@ function seedOf({ seed }) {
     throw new RangeError(`seed: ${seed} is not a whole number from 0 to 2^64 - 1`);
 }
 
-function corner(name, value) {
-    if (value?.length === 2 && [...value].every((x) => typeof x === "number")) return [...value];
-    throw new TypeError(`${name}: not two numbers`);
+function corner(name, value, axes = 2) {
+    if (value?.length === axes && [...value].every((x) => typeof x === "number")) return [...value];
+    throw new TypeError(`${name}: not ${axes === 2 ? "two" : "three"} numbers`);
 }
 
-function domainOf({ domainMin, domainMax, boundary }) {
-    const corners = [...corner("domainMin", domainMin), ...corner("domainMax", domainMax)];
+function domainOf({ domainMin, domainMax, boundary }, axes = 2) {
+    const corners = [...corner("domainMin", domainMin, axes), ...corner("domainMax", domainMax, axes)];
     return [...corners, constant("boundary", boundary, BOUNDED)];
 }
 
@@ -148,12 +152,17 @@ function calling(body) {
     }
 }
 
+// A radius and a count, of which one is 0.
+function amount(radius, count) {
+    if (count > 0 && radius !== 0) throw new RangeError(`radius: ${radius}, but there is a count, from which it follows`);
+    return [radius, whole("count", count)];
+}
+
 function planeOptions(call, options) {
     const { radius, count, leafSize, order, quotient, coarsest } = options;
     const numbers = [
-        radius, whole("count", count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
+        ...amount(radius, count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
     ];
-    if (count > 0 && radius !== 0) throw new RangeError(`radius: ${radius}, but there is a count, from which it follows`);
     return call.rows("options", numbers, Float64Array, numbers.length)[0];
 }
 
@@ -285,6 +294,19 @@ export function pspSample(mesh, options) {
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
         const [[found, coveringRadius], ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
         return { ...surfaceSamples(samples), radius: found, ...(coveringRadius < 0 ? {} : { coveringRadius }) };
+    });
+}
+
+export function volumeSample(options) {
+    options = withDefaults(VOLUME, options);
+    return calling((call) => {
+        const { radius, count, order, quotient } = options;
+        const numbers = [...amount(radius, count), ...domainOf(options, 3), constant("order", order, ORDERS), quotient];
+        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const types = [Float32Array, Float32Array, Float64Array];
+        const args = [place, seedOf(options), ...given(call, options, 3)];
+        const [positions, ranks, [found, coveringRadius]] = call.make("volume_sample", args, ...types);
+        return withRanks({ positions, radius: found, coveringRadius }, ranks);
     });
 }
 

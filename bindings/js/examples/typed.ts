@@ -1,5 +1,5 @@
 // Checked by `tsc --noEmit`: the types of a whole program.
-import { Mesh, Plane, dcrRelax, init, kdrtSample, pspSample, spectrum, type SurfaceSamples } from "azulejo";
+import { Mesh, Plane, dcrRelax, init, kdrtSample, pspSample, spectrum, volumeSample, type SurfaceSamples } from "azulejo";
 
 await init();
 const set = kdrtSample({ radius: 0.01, boundary: "bounded", seed: 7n });
@@ -11,6 +11,9 @@ mesh.free();
 const plane = new Plane({ radius: 0.01 });
 const part = plane.window([0, 0], [0.5, 0.5]).positions.length;
 plane.free();
+const inBox: number = volumeSample({ count: 50, domainMax: [2, 1, 1], order: "progressive" }).coveringRadius;
+// @ts-expect-error: corners of boxes have three numbers
+volumeSample({ radius: 0.1, domainMin: [0, 0] });
 // @ts-expect-error: there is no such boundary
 kdrtSample({ radius: 0.01, boundary: "open" });
-console.log(set.radius, low, samples.triangles.length, part);
+console.log(set.radius, inBox, low, samples.triangles.length, part);

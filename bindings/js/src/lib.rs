@@ -9,8 +9,11 @@ mod memory;
 mod plane;
 mod surface;
 mod thin;
+mod volume;
 
-use azulejo::{Boundary, Domain, Order};
+use azulejo::{Boundary, Domain, Given, Order};
+
+use crate::memory::rows;
 
 /// The domain of five numbers: the corners of a rectangle, and whether it is bounded.
 pub(crate) fn domain(min_x: f64, min_y: f64, max_x: f64, max_y: f64, bounded: i32) -> Domain {
@@ -21,4 +24,19 @@ pub(crate) fn domain(min_x: f64, min_y: f64, max_x: f64, max_y: f64, bounded: i3
 /// The order that a flag selects.
 pub(crate) fn order(progressive: i32) -> Order {
     if progressive == 0 { Order::Any } else { Order::Progressive }
+}
+
+/// Given samples; without clearances each keeps the radius of the set.
+///
+/// # Safety
+/// As [`rows`] of both.
+pub(crate) unsafe fn given<'a, const AXES: usize>(
+    positions: *const [f32; AXES],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
+) -> Given<'a, AXES> {
+    // SAFETY: guaranteed by the caller.
+    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
+    if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }

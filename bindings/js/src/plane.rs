@@ -5,8 +5,8 @@ use azulejo::kdrt::{self, CountOptions, Kind, Options, Plane, Progressive};
 use azulejo::{Boundary, Classes, Domain, Given};
 
 use crate::answer::{Answer, call};
-use crate::domain;
 use crate::memory::rows;
+use crate::{domain, given};
 
 /// The options of a set, as JavaScript lays them out.
 #[repr(C)]
@@ -49,21 +49,6 @@ impl PlaneOptions {
         let options = CountOptions::new(self.count as u64).domain(self.domain()).leaf_size(self.leaf_size);
         options.seed(seed).levels(self.levels())
     }
-}
-
-/// Given samples; without clearances each keeps the radius.
-///
-/// # Safety
-/// As [`rows`] of both.
-unsafe fn given<'a>(
-    positions: *const [f32; 2],
-    count: usize,
-    clearances: *const f64,
-    clearance_count: usize,
-) -> Given<'a, 2> {
-    // SAFETY: guaranteed by the caller.
-    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
-    if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }
 
 /// The samples, their ranks, the radius, and whether the set is maximal.

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
+use azulejo::Points;
 use azulejo::dcr::surface;
 use azulejo::mesh::Mesh;
 use azulejo::psp::FlatOptions;
-use azulejo::{Given, Points};
 
 use crate::answer::{Answer, call};
 use crate::memory::rows;
-use crate::order;
+use crate::{given, order};
 
 /// The object behind JavaScript's `Mesh`.
 pub struct Handle(pub Arc<Mesh>);
@@ -70,9 +70,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     clearance_count: usize,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
-    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
-    let given =
-        if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) };
+    let given = unsafe { given(positions, count, clearances, clearance_count) };
     call(|context| {
         let mut sampling = FlatOptions::new(options.radius)
             .count(options.count as usize)

@@ -1,5 +1,7 @@
-// The package against naive oracles: all pairs, and points of a fine grid.
+// The package against naive oracles: all pairs, and points of a fine grid; and the sums of tests/sums.txt.
 import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
 
@@ -153,6 +155,72 @@ function pspChecked(mesh, options) {
     return samples;
 }
 
+// The largest distance of a point of a grid of a box from the set.
+function coveringInSpace(positions, low, high, wrap, cells = 20) {
+    const along = (axis, i) => low[axis] + ((high[axis] - low[axis]) * (i + 0.5)) / cells;
+    let most = 0;
+    for (let place = 0; place < cells ** 3; place++) {
+        const at = [along(0, place % cells), along(1, Math.floor(place / cells) % cells), along(2, Math.floor(place / cells ** 2))];
+        let least = Infinity;
+        for (let i = 0; i < positions.length; i += 3) {
+            const squared = at.reduce((sum, x, axis) => sum + wrap(x - positions[i + axis]) ** 2, 0);
+            least = Math.min(least, squared);
+        }
+        most = Math.max(most, least);
+    }
+    return Math.sqrt(most);
+}
+
+// Whether arrays of a result have the sum of a line of tests/sums.txt.
+function hasSum(name, ...arrays) {
+    const sums = String(readFileSync(new URL("../../../tests/sums.txt", import.meta.url))).split("\n");
+    const line = sums.find((line) => line.slice(66).startsWith(`${name} (`));
+    const hash = createHash("sha256");
+    for (const array of arrays) hash.update(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
+    return line.startsWith(hash.digest("hex"));
+}
+
+test("sets of boxes are conflict-free, maximal, exact in number and nested in progressive order", () => {
+    const unit = [[0, 0, 0], [1, 1, 1]];
+    const torus = azulejo.volumeSample({ radius: 0.15, seed: 3 });
+    assert.ok(torus.positions.length / 3 > 150);
+    assert.ok(smallest(torus.positions, 3, wrapped) >= 0.15);
+    assert.ok(coveringInSpace(torus.positions, ...unit, wrapped) <= 0.15 + 1e-6);
+    assert.equal(torus.coveringRadius, 0.15);
+    const slab = { domainMin: [-1, 2, 0], domainMax: [1, 2.5, 0.25], boundary: "bounded" };
+    const { positions } = azulejo.volumeSample({ radius: 0.1, ...slab });
+    assert.ok(positions.every((x, i) => x >= slab.domainMin[i % 3] && x < slab.domainMax[i % 3]));
+    assert.ok(smallest(positions, 3) >= 0.1);
+    assert.ok(coveringInSpace(positions, slab.domainMin, slab.domainMax, (d) => d) <= 0.1 + 1e-6);
+    const counted = azulejo.volumeSample({ count: 400, order: "progressive", quotient: 1.2 });
+    assert.equal(counted.ranks.length, 400);
+    for (const count of [100, 250, 400]) {
+        const [prefix, rank] = [counted.positions.subarray(0, 3 * count), counted.ranks[count - 1]];
+        assert.ok(smallest(prefix, 3, wrapped) >= rank);
+        assert.ok(coveringInSpace(prefix, ...unit, wrapped) <= 1.2 * rank + 1e-6);
+    }
+});
+
+test("sets of boxes keep clear of given samples, and have the bytes of the Rust calls", () => {
+    const givenPositions = Array.from({ length: 180 }, (_, i) => ((Math.floor(i / 3) * [31, 47, 83][i % 3]) % 256) / 256);
+    const givenClearances = Array.from({ length: 60 }, (_, i) => 0.3 / [1, 7, 60, 1000][i % 4]);
+    const given = { givenPositions, givenClearances };
+    const around = azulejo.volumeSample({ radius: 0.04, seed: 81, ...given });
+    for (let k = 0; k < 60; k++) {
+        for (let i = 0; i < around.positions.length; i += 3) {
+            const offsets = [0, 1, 2].map((axis) => wrapped(around.positions[i + axis] - givenPositions[3 * k + axis]));
+            assert.ok(Math.sqrt(offsets.reduce((sum, d) => sum + d * d, 0)) >= givenClearances[k]);
+        }
+    }
+    assert.ok(hasSum("volume torus, given", around.positions));
+    assert.ok(!hasSum("volume cube, given", around.positions));
+    const ordered = { radius: 0.04, seed: 81, boundary: "bounded", order: "progressive", quotient: 1.3 };
+    const { positions, ranks } = azulejo.volumeSample({ ...ordered, ...given });
+    assert.ok(hasSum("volume cube, progressive, given", positions, ranks));
+    const bar = { domainMin: [0.25, -7, 0], domainMax: [0.26, 7, 0.3], boundary: "bounded" };
+    assert.ok(hasSum("volume bar", azulejo.volumeSample({ radius: 0.05, seed: 75, ...bar }).positions));
+});
+
 test("thinning selects what no selected point before is nearer to", () => {
     const cloud = azulejo.kdrtSample({ radius: 0.02 }).positions;
     const { indices } = azulejo.thin(cloud, 2, { radius: 0.1 });
@@ -192,6 +260,13 @@ test("errors name the argument, and leave the module usable", () => {
     throws(() => azulejo.dcrRelax([0.5, 0.5, 0.5]), "positions");
     throws(() => new azulejo.Mesh([0, 0, 0], [0, 1, 2]), "indices");
     throws(() => azulejo.pspSample({}, { radius: 1 }), "mesh");
+    throws(() => azulejo.volumeSample(), "radius");
+    throws(() => azulejo.volumeSample({ radius: 0.1, count: 5 }), "radius");
+    throws(() => azulejo.volumeSample({ radius: 0.1, domainMin: [0, 0] }), "domainMin");
+    throws(() => azulejo.volumeSample({ radius: 0.1, domainMin: [0, 0, 2] }), "domainMax");
+    throws(() => azulejo.volumeSample({ count: 9, givenPositions: [0, 0, 0] }), "givenClearances");
+    throws(() => azulejo.volumeSample({ radius: 0.1, givenPositions: [0, 0] }), "givenPositions");
+    throws(() => azulejo.volumeSample({ radius: 0.1, order: "progressive", quotient: 2 }), "quotient");
     throws(() => azulejo.thin([0, 0], 4, { radius: 1 }), "dimensions");
     throws(() => azulejo.thin([0, 0], 2), "radius");
     assert.ok(azulejo.kdrtSample({ radius: 0.1 }).positions.length > 0);

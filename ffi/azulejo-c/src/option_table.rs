@@ -314,7 +314,7 @@ fn javascript_has_these_options_and_defaults() {
                     "required" => plain.contains("required"),
                     "none" => plain.contains("by default the radius") || line.contains("null"),
                     "1" if line.contains("boolean") => plain.contains("default true"),
-                    "0 0" | "1 1" => plain.contains(&format!("default {}", row.default)),
+                    "0 0" | "1 1" | "0 0 0" | "1 1 1" => plain.contains(&format!("default {}", row.default)),
                     _ => {
                         plain.contains(&format!("default {default}"))
                             || plain.contains(&format!("{default} the default"))
