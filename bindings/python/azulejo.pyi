@@ -517,6 +517,24 @@ def psp_sample_classes(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def psp_classes_with_density(
+    mesh: _MeshLike,
+    radii: ArrayLike,
+    density: ArrayLike,
+    *,
+    radius: Optional[SupportsFloat] = 0.0,
+    count: Optional[SupportsFloat] = 0.0,
+    texture: Optional[ArrayLike] = None,
+    masks: Optional[ArrayLike] = None,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    cosine: Optional[SupportsFloat] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def psp_adaptive_sample(
     mesh: _MeshLike,
     vertex_radii: ArrayLike,

@@ -23,6 +23,10 @@ impl<'py> Watch<'py> {
         Ok(Self { py, context: context(natural("threads", threads)?)?, progress })
     }
 
+    pub(crate) fn py(&self) -> Python<'py> {
+        self.py
+    }
+
     /// Makes a call of the library without the interpreter's lock.
     pub(crate) fn run<T: Send>(
         self,
