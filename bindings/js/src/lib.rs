@@ -5,9 +5,11 @@
 
 mod analysis;
 mod answer;
+mod edit;
 mod memory;
 mod plane;
 mod surface;
+mod surface_varying;
 mod thin;
 mod volume;
 
@@ -37,6 +39,10 @@ pub(crate) unsafe fn given<'a, const AXES: usize>(
     clearance_count: usize,
 ) -> Given<'a, AXES> {
     // SAFETY: guaranteed by the caller.
-    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
+    unsafe { given_of(rows(positions, count), rows(clearances, clearance_count)) }
+}
+
+/// [`given`] of arrays.
+pub(crate) fn given_of<'a, const AXES: usize>(positions: &'a [[f32; AXES]], clearances: &'a [f64]) -> Given<'a, AXES> {
     if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }

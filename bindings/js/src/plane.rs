@@ -33,7 +33,7 @@ impl PlaneOptions {
         (self.progressive != 0.0).then(|| Progressive::new().quotient(self.quotient).coarsest(self.coarsest))
     }
 
-    fn by_radius<'a>(&self, seed: u64, given: Given<'a, 2>) -> Options<'a> {
+    pub(crate) fn by_radius<'a>(&self, seed: u64, given: Given<'a, 2>) -> Options<'a> {
         let kind = match self.levels() {
             None => Kind::Plain(self.radius),
             Some(levels) => Kind::Progressive(self.radius, levels),
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     })
 }
 
-/// The samples of several classes, and the class of each.
+/// The samples of several classes, the class of each, and their ranks.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -85,15 +85,23 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
 pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     options: &PlaneOptions,
     seed: u64,
+    positions: *const [f32; 2],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
     radii: *const f64,
     radius_count: usize,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
-    let radii = unsafe { rows(radii, radius_count) };
+    let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
     call(|context| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
-        let set = kdrt::sample(context, &options.of(Kind::Classes(&classes), seed), None)?;
-        Ok(Answer::default().and(set.positions).and(set.classes))
+        let kind = match options.levels() {
+            None => Kind::Classes(&classes),
+            Some(levels) => Kind::ProgressiveClasses(&classes, levels),
+        };
+        let set = kdrt::sample(context, &options.of(kind, seed).given(given), None)?;
+        Ok(Answer::default().and(set.positions).and(set.classes).and(set.ranks))
     })
 }
 
@@ -102,7 +110,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
 /// # Safety
 /// The pointers are to arguments of these sizes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_plane_create(
+pub unsafe extern "C" fn azulejo_kdrt_create(
     options: &PlaneOptions,
     seed: u64,
     positions: *const [f32; 2],
@@ -121,7 +129,7 @@ pub unsafe extern "C" fn azulejo_plane_create(
 
 /// The samples in a window, and their ranks.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_plane_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
+pub extern "C" fn azulejo_kdrt_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
     call(|_| {
         let set = plane.window([min_x, min_y], [max_x, max_y])?;
         Ok(Answer::default().and(set.positions).and(set.ranks))
@@ -130,7 +138,7 @@ pub extern "C" fn azulejo_plane_window(plane: &Plane, min_x: f64, min_y: f64, ma
 
 /// Frees a plane.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_plane_free(plane: Option<Box<Plane>>) {
+pub extern "C" fn azulejo_kdrt_free(plane: Option<Box<Plane>>) {
     drop(plane);
 }
 

@@ -112,8 +112,8 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     })
 }
 
-/// The answer with every column of some samples.
-fn answer(samples: Points<3>) -> Answer {
+/// The answer with every column that all samples have, and their ranks.
+pub(crate) fn answer(samples: Points<3>) -> Answer {
     let Points { positions, normals, triangles, barycentrics, ranks, .. } = samples;
     Answer::default().and(positions).and(normals).and(triangles).and(barycentrics).and(ranks)
 }
