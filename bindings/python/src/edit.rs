@@ -8,12 +8,12 @@ use pyo3::prelude::*;
 
 use crate::argument::{callable, maybe_pair, maybe_real, natural, real, whole};
 use crate::array::{Array, GivenArrays};
-use crate::error::{invalid, raised};
+use crate::error::invalid;
 use crate::frame::{Frame, Positions, Rows};
 use crate::growing::locked;
 use crate::plane::Request;
 use crate::points::Points;
-use crate::watch::Watch;
+use crate::watch::{Watch, unlocked};
 
 /// A set of the plane that is edited. One call at a time may change it; another one, from another thread or from
 /// progress, raises RuntimeError.
@@ -40,7 +40,7 @@ impl Plane {
     ) -> PyResult<T> {
         let mut set = self.set.try_write().map_err(|error| locked(&error))?;
         let set = &mut *set;
-        py.detach(|| step(set)).map_err(raised)
+        unlocked(py, || step(set))
     }
 
     /// Samples of an edit, with their ids.

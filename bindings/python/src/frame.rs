@@ -159,9 +159,21 @@ impl<const N: usize> Frame<N> {
         Self { whole, domain, origin }
     }
 
+    /// The domain of samples that are relative to an origin.
+    pub(crate) fn with_origin(min: [f64; N], max: [f64; N], boundary: &str, origin: [f64; N]) -> PyResult<Self> {
+        let whole = Domain { min, max, boundary: choice("boundary", boundary, &BOUNDARIES)? };
+        Ok(Self { whole, domain: whole.relative_to(origin), origin })
+    }
+
     /// A place of the caller's.
     pub(crate) fn local(&self, place: [f64; N]) -> [f64; N] {
         relative(place, self.origin)
+    }
+
+    /// The domain as text.
+    pub(crate) fn shown(&self) -> String {
+        let Domain { min, max, .. } = self.whole;
+        format!("{min:?} to {max:?}, {}", self.boundary())
     }
 
     /// The name of the boundary.

@@ -10,13 +10,12 @@ use pyo3::prelude::*;
 use crate::argument::{callable, maybe_real, maybe_triple, natural, real, whole};
 use crate::array::{Array, GivenArrays};
 use crate::edit::region;
-use crate::error::raised;
 use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::{PspReport, priority, projectors};
 use crate::taken;
-use crate::watch::Watch;
+use crate::watch::{Watch, unlocked};
 
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
 /// change it; another one, from another thread or from progress, raises RuntimeError.
@@ -79,7 +78,7 @@ impl Psp {
     ) -> PyResult<T> {
         let mut state = self.state.try_write().map_err(|error| locked(&error))?;
         let state = &mut *state;
-        py.detach(|| step(state.editable())).map_err(raised)
+        unlocked(py, || step(state.editable()))
     }
 
     /// Samples of an edit, with their ids.
@@ -122,7 +121,7 @@ impl Psp {
             .priority(self::priority(priority)?)
             .given(given.samples()?)
             .cosine(cosine.unwrap_or(-1.0));
-        let set = py.detach(|| psp::Psp::new(&mesh.shared, &request)).map_err(raised)?;
+        let set = unlocked(py, || psp::Psp::new(&mesh.shared, &request))?;
         Ok(Self { origin, state: RwLock::new(State::Growing(set)) })
     }
 

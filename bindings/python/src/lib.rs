@@ -16,6 +16,7 @@ mod psp;
 mod psp_classes;
 mod relax;
 mod remesh;
+mod report;
 mod spectrum;
 mod stream;
 mod taken;
@@ -60,14 +61,14 @@ mod azulejo {
     #[pymodule_export]
     use crate::growing::Psp;
     #[pymodule_export]
-    use crate::mesh::Mesh;
+    use crate::mesh::{_mesh, Mesh};
     #[pymodule_export]
     use crate::plane::{
         KdrtMergeReport, KdrtPlane, KdrtReport, kdrt_merge, kdrt_sample, kdrt_sample_classes, kdrt_sample_window,
         maximal_sample,
     };
     #[pymodule_export]
-    use crate::points::Points;
+    use crate::points::{_points, Points};
     #[pymodule_export]
     use crate::psp::{PspReport, psp_sample};
     #[pymodule_export]
@@ -81,7 +82,7 @@ mod azulejo {
     #[pymodule_export]
     use crate::stream::kdrt_stream;
     #[pymodule_export]
-    use crate::thin::{Selection, thin};
+    use crate::thin::{_selection, Selection, thin};
     #[pymodule_export]
     use crate::volume::{VolumeReport, volume_sample};
 

@@ -9,33 +9,35 @@ use crate::argument::{
 use crate::array::GivenArrays;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
-/// The report of a psp_ call.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct PspReport {
-    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
-    /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
-    radius: f64,
-    /// Every place of the surface is so near to a sample; None where that is not known.
-    covering_radius: Option<f64>,
-    /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
-    rho: f64,
-    /// Samples of the set after the call.
-    samples: u64,
-    /// Samples that the call added.
-    accepted: u64,
-    /// Iterations of projection that were made.
-    iterations: u32,
-    /// Darts that were thrown at uncovered surface.
-    darts: u64,
-    /// The share of the area that was uncovered before the fill; None without one.
-    uncovered_before: Option<f64>,
-    /// The share that is uncovered after it.
-    uncovered_after: Option<f64>,
-    /// Wall time in seconds.
-    seconds: f64,
+report! {
+    /// The report of a psp_ call.
+    PspReport {
+        /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
+        /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
+        radius: f64,
+        /// Every place of the surface is so near to a sample; None where that is not known.
+        covering_radius: Option<f64>,
+        /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
+        rho: f64,
+        /// Samples of the set after the call.
+        samples: u64,
+        /// Samples that the call added.
+        accepted: u64,
+        /// Iterations of projection that were made.
+        iterations: u32,
+        /// Darts that were thrown at uncovered surface.
+        darts: u64,
+        /// The share of the area that was uncovered before the fill; None without one.
+        uncovered_before: Option<f64>,
+        /// The share that is uncovered after it.
+        uncovered_after: Option<f64>,
+        /// Wall time in seconds.
+        seconds: f64,
+    }
 }
 
 impl From<psp::Report> for PspReport {

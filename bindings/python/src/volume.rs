@@ -8,18 +8,20 @@ use crate::array::GivenArrays;
 use crate::error::invalid;
 use crate::frame::Frame;
 use crate::points::Points;
+use crate::report::report;
 use crate::watch::Watch;
 
-/// The report of volume_sample.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct VolumeReport {
-    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found.
-    radius: f64,
-    /// No place of the cuboid is farther from all samples, and outside of all given ones: the radius, or for a count up to
-    /// 1.1 times it; in progressive order the quotient times it.
-    covering_radius: f64,
-    /// Wall time in seconds.
-    seconds: f64,
+report! {
+    /// The report of volume_sample.
+    VolumeReport {
+        /// No two samples are closer: the radius that was asked for or, for a count, the one that was found.
+        radius: f64,
+        /// No place of the cuboid is farther from all samples, and outside of all given ones: the radius, or for a count up to
+        /// 1.1 times it; in progressive order the quotient times it.
+        covering_radius: f64,
+        /// Wall time in seconds.
+        seconds: f64,
+    }
 }
 
 impl From<volume::Report> for VolumeReport {

@@ -44,6 +44,11 @@ impl<'py> Watch<'py> {
     }
 }
 
+/// Makes a short call of the library without the interpreter's lock: one that needs no threads and is not interrupted.
+pub(crate) fn unlocked<T: Send>(py: Python<'_>, call: impl FnOnce() -> Result<T, Error> + Send) -> PyResult<T> {
+    py.detach(call).map_err(raised)
+}
+
 /// The interpreter's lock is taken no more often than this: another thread may take 5 ms to hand it over.
 const INTERVAL: Duration = Duration::from_millis(20);
 
