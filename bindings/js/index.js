@@ -326,7 +326,9 @@ function density(of) {
     const options = withDefaults(DENSITY, of);
     const { values, radius, count, width, height } = options;
     if (values === null) throw new TypeError("values: a density needs some");
-    if ((radius === 0) === (count === 0)) throw new RangeError(`radius: ${radius}, and count ${count}: one of them must be 0`);
+    if ((radius === 0) === (count === 0)) {
+        throw new RangeError(`radius: ${radius}, and count ${count}: one of them must be 0`);
+    }
     return { ...options, kind: 2, size: [whole("width", width), whole("height", height)] };
 }
 
@@ -398,7 +400,8 @@ class EditedSet extends Handle {
     // What a call returns of samples, and what comes behind it.
     #edited(call, name, args, ...more) {
         const types = [Float32Array, Float32Array, Uint32Array, Float32Array, Float64Array, ...more];
-        const [positions, normals, triangles, barycentrics, ids, ...rest] = call.make(`set_${name}`, [this.pointer, ...args], ...types);
+        const arrays = call.make(`set_${name}`, [this.pointer, ...args], ...types);
+        const [positions, normals, triangles, barycentrics, ids, ...rest] = arrays;
         const samples = this.#axes === 2 ? { positions, ids } : { positions, normals, triangles, barycentrics, ids };
         return [samples, ...rest];
     }
@@ -410,7 +413,8 @@ class EditedSet extends Handle {
     erase(region) {
         const { centre, radius, min, max } = withDefaults(REGION, region);
         if ((centre === null) !== (radius === null)) {
-            throw new TypeError(centre === null ? "centre: none, but there is a radius" : "radius: none, but there is a centre");
+            const [missing, other] = centre === null ? ["centre", "radius"] : ["radius", "centre"];
+            throw new TypeError(`${missing}: none, but there is a ${other}`);
         }
         if (radius !== null && typeof radius !== "number") throw new TypeError(`radius: ${radius} is not a number`);
         const height = Array(3 - this.#axes).fill(0);
