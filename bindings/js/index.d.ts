@@ -97,9 +97,13 @@ declare class Handle {
 
 /** The common part of all windows of a plane, made once. */
 export class KdrtPlane extends Handle {
-    constructor(options: PlaneOptions);
+    /** `radii`: of several classes, as in kdrtSampleClasses. */
+    constructor(options: PlaneOptions, radii?: Numbers | null);
     /** The samples with `windowMin <= x < windowMax`. */
-    window(windowMin: readonly [number, number], windowMax: readonly [number, number]): PlaneSamples;
+    window(windowMin: readonly [number, number], windowMax: readonly [number, number]): PlaneSamples & {
+        /** Of several classes: that of each sample. */
+        classes?: Uint32Array;
+    };
 }
 
 /** Triangles in space; they need not be connected. */

@@ -203,13 +203,18 @@ export function kdrtSampleWindow(options, windowMin, windowMax) {
     }
 }
 
+// The radii of classes of the plane.
+function matrix(call, { radius, count }, radii) {
+    if (radius !== 0) throw new RangeError(`radius: ${radius}, but classes have radii of their own`);
+    if (count !== 0) throw new RangeError(`count: ${count}, but classes are made by their radii`);
+    return call.rows("radii", radii, Float64Array, 1);
+}
+
 export function kdrtSampleClasses(options, radii) {
     options = withDefaults(PLANE, options);
     return calling((call) => {
-        if (options.radius !== 0) throw new RangeError(`radius: ${options.radius}, but classes have radii of their own`);
-        if (options.count !== 0) throw new RangeError(`count: ${options.count}, but classes are made by their radii`);
-        const matrix = call.rows("radii", radii, Float64Array, 1);
-        const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...matrix];
+        const own = matrix(call, options, radii);
+        const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own];
         const types = [Float32Array, Uint32Array, Float32Array];
         const [positions, classes, ranks] = call.make("kdrt_sample_classes", args, ...types);
         return withRanks({ positions, classes }, ranks);
@@ -247,23 +252,28 @@ if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.free;
 const read = (pointer) => new Uint32Array(wasm.memory.buffer, pointer, 1)[0];
 
 export class KdrtPlane extends Handle {
-    constructor(options) {
+    #hasClasses;
+
+    constructor(options, radii = null) {
         options = withDefaults(PLANE, options);
         const pointer = calling((call) => {
             if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+            const own = radii === null ? [0, 0] : matrix(call, options, radii);
             const out = call.handle();
-            call.make("kdrt_create", [planeOptions(call, options), seedOf(options), ...given(call, options, 2), out]);
+            const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own, out];
+            call.make("kdrt_create", args);
             return read(out);
         });
         super("kdrt", pointer, "plane");
+        this.#hasClasses = radii !== null;
     }
 
     window(windowMin, windowMax) {
         const corners = [...corner("windowMin", windowMin), ...corner("windowMax", windowMax)];
         return calling((call) => {
-            const types = [Float32Array, Float32Array];
-            const [positions, ranks] = call.make("kdrt_window", [this.pointer, ...corners], ...types);
-            return withRanks({ positions }, ranks);
+            const types = [Float32Array, Float32Array, Uint32Array];
+            const [positions, ranks, classes] = call.make("kdrt_window", [this.pointer, ...corners], ...types);
+            return withRanks({ positions, ...(this.#hasClasses ? { classes } : {}) }, ranks);
         });
     }
 }

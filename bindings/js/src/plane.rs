@@ -41,6 +41,14 @@ impl PlaneOptions {
         self.of(kind, seed).given(given)
     }
 
+    fn by_classes<'a>(&self, classes: &'a Classes, seed: u64, given: Given<'a, 2>) -> Options<'a> {
+        let kind = match self.levels() {
+            None => Kind::Classes(classes),
+            Some(levels) => Kind::ProgressiveClasses(classes, levels),
+        };
+        self.of(kind, seed).given(given)
+    }
+
     fn of<'a>(&self, kind: Kind<'a>, seed: u64) -> Options<'a> {
         Options::of(kind).domain(self.domain()).leaf_size(self.leaf_size).seed(seed)
     }
@@ -96,16 +104,12 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
     call(|context| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
-        let kind = match options.levels() {
-            None => Kind::Classes(&classes),
-            Some(levels) => Kind::ProgressiveClasses(&classes, levels),
-        };
-        let set = kdrt::sample(context, &options.of(kind, seed).given(given), None)?;
+        let set = kdrt::sample(context, &options.by_classes(&classes, seed, given), None)?;
         Ok(Answer::default().and(set.positions).and(set.classes).and(set.ranks))
     })
 }
 
-/// Keeps the state that all windows of a plane share; the answer is empty, the handle is in `out`.
+/// Keeps the state that all windows of a plane share, of several classes if there are radii of theirs; the answer is empty, the handle is in `out`.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -117,22 +121,31 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
     count: usize,
     clearances: *const f64,
     clearance_count: usize,
+    radii: *const f64,
+    radius_count: usize,
     out: &mut Option<Box<Plane>>,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
-    let given = unsafe { given(positions, count, clearances, clearance_count) };
+    let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
     call(|context| {
-        *out = Some(Box::new(Plane::new(context, &options.by_radius(seed, given), None)?));
+        let plane = match radii {
+            [] => Plane::new(context, &options.by_radius(seed, given), None)?,
+            _ => {
+                let classes = Classes::new(radii.len().isqrt(), radii)?;
+                Plane::new(context, &options.by_classes(&classes, seed, given), None)?
+            }
+        };
+        *out = Some(Box::new(plane));
         Ok(Answer::default())
     })
 }
 
-/// The samples in a window, and their ranks.
+/// The samples in a window, their ranks and their classes.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_kdrt_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
     call(|_| {
         let set = plane.window([min_x, min_y], [max_x, max_y])?;
-        Ok(Answer::default().and(set.positions).and(set.ranks))
+        Ok(Answer::default().and(set.positions).and(set.ranks).and(set.classes))
     })
 }
 

@@ -141,6 +141,14 @@ test("classes around given samples and in progressive order have the bytes of th
         return at === of ? Math.hypot(x, y) : Infinity;
     }));
     assert.ok(nearest(0, 0) >= 0.2 && nearest(0, 1) < 0.2 && nearest(1, 1) >= 0.1 && nearest(1, 0) < 0.1);
+    // Windows of a kept plane of classes are parts of it.
+    const plane = new azulejo.KdrtPlane(order, radii);
+    const window = plane.window([0.5, 0], [1, 1]);
+    const row = (set, i) => [set.classes[i], set.ranks[i], ...set.positions.subarray(2 * i, 2 * i + 2)].join(" ");
+    const whole = [...classes.keys()].filter((i) => positions[2 * i] >= 0.5).map((i) => row({ positions, classes, ranks }, i));
+    assert.deepEqual([...window.classes.keys()].map((i) => row(window, i)).sort(), whole.sort());
+    plane.free();
+    assert.equal(new azulejo.KdrtPlane({ radius: 0.1 }).window([0, 0], [1, 1]).classes, undefined);
     const sums = azulejo.kdrtSampleClasses({ seed: 26, boundary: "bounded" }, classRadii([0.01, 0.01, 0.01, 0.01], 0.7));
     assert.ok(hasSum("classes equal", sums.positions, sums.classes));
 });
@@ -468,6 +476,7 @@ test("errors name the argument, and leave the module usable", () => {
     throws(() => azulejo.pspSample({}, { radius: 1 }), "mesh");
     throws(() => azulejo.kdrtSampleClasses({ radius: 0.1 }, [0.1]), "radius");
     throws(() => azulejo.kdrtSampleClasses({ count: 9 }, [0.1]), "count");
+    throws(() => new azulejo.KdrtPlane({ radius: 0.1 }, [0.1]), "radius");
     throws(() => azulejo.kdrtSampleClasses({}, [0.1, 0.2, 0.3]), "radii");
     throws(() => new azulejo.Plane({ radius: 0.1 }, [0.5, 0.5, 0.5, 0.55]), "positions");
     throws(() => new azulejo.Plane({ radius: 0.1, count: 4 }), "count");
