@@ -151,12 +151,24 @@ test("classes around given samples and in progressive order have the bytes of th
     assert.equal(new azulejo.KdrtPlane({ radius: 0.1 }).window([0, 0], [1, 1]).classes, undefined);
     const sums = azulejo.kdrtSampleClasses({ seed: 26, boundary: "bounded" }, classRadii([0.01, 0.01, 0.01, 0.01], 0.7));
     assert.ok(hasSum("classes equal", sums.positions, sums.classes));
+    const given = {
+        givenPositions: Array.from({ length: 300 }, (_, i) => [((i * 619) % 307) / 300, ((i * 41) % 301) / 301]).flat(),
+        givenClearances: Array.from({ length: 600 }, (_, i) => 1e-3 * (i % 23) * (i % 2)),
+    };
+    const own = classRadii([0.015, 0.008], 0.9);
+    const cleared = azulejo.kdrtSampleClasses({ seed: 26, ...given }, own);
+    assert.ok(hasSum("classes around", cleared.positions, cleared.classes));
+    const equally = azulejo.kdrtSampleClasses({ seed: 26, givenPositions: given.givenPositions }, own);
+    assert.ok(hasSum("classes around equal", equally.positions, equally.classes));
+    const part = new azulejo.KdrtPlane({ seed: 26, ...given }, own).window([0.8, 0.3], [1, 0.6]);
+    assert.ok(hasSum("classes around, window", part.positions, part.classes));
 });
 
 // Wei's matrix for classes of these own radii.
 function classRadii(own, factor = 1) {
     const smallestOwn = Math.min(...own);
-    const density = (radius) => own.filter((r) => r >= radius).reduce((sum, r) => sum + (smallestOwn / r) ** 2, 0);
+    const square = (x) => x * x;
+    const density = (radius) => own.filter((r) => r >= radius).reduce((sum, r) => sum + square(smallestOwn / r), 0);
     return own.flatMap((a, i) => own.map((b, j) =>
         i === j ? a : (factor * smallestOwn) / Math.sqrt(density(Math.min(a, b)))));
 }
@@ -208,6 +220,51 @@ test("classes on meshes keep their distances, masks and ranks, and follow densit
     assert.ok(own.every((i, k) => k === 0 || ordered.ranks[i] <= ordered.ranks[own[k - 1]]));
     const first = own.slice(0, 20).flatMap((i) => [...ordered.positions.subarray(3 * i, 3 * i + 3)]);
     assert.ok(smallest(first, 3) >= ordered.ranks[own[19]]);
+    mesh.free();
+});
+
+// The closed torus of tests/sums/surface.rs: its positions, indices and normals.
+function sumsTorus(columns = 96, rows = 64) {
+    const positions = [], indices = [], normals = [];
+    for (let column = 0; column < columns; column++) {
+        for (let row = 0; row < rows; row++) {
+            const [hole, tube] = [(2 * Math.PI * column) / columns, (2 * Math.PI * row) / rows];
+            const [east, north, radius] = [Math.cos(hole), Math.sin(hole), 1 + 0.4 * Math.cos(tube)];
+            positions.push(radius * east, radius * north, 0.4 * Math.sin(tube));
+            normals.push(Math.cos(tube) * east, Math.cos(tube) * north, Math.sin(tube));
+            const vertex = (c, r) => (c % columns) * rows + (r % rows);
+            const [near, far] = [vertex(column, row), vertex(column + 1, row + 1)];
+            indices.push(near, vertex(column + 1, row), far, near, far, vertex(column, row + 1));
+        }
+    }
+    return [Float32Array.from(positions), indices, Float32Array.from(normals)];
+}
+
+// The normals of vertices at samples, as the library interpolates them.
+function interpolated({ triangles, barycentrics }, indices, normals) {
+    return Float32Array.from([...triangles].flatMap((triangle, i) => {
+        const [u, v] = barycentrics.subarray(2 * i, 2 * i + 2);
+        const weights = [1 - u - v, u, v];
+        const corner = (k, axis) => weights[k] * normals[3 * indices[3 * triangle + k] + axis];
+        const [x, y, z] = [0, 1, 2].map((axis) => corner(0, axis) + corner(1, axis) + corner(2, axis));
+        const shorter = 1 / Math.sqrt(x * x + y * y + z * z);
+        return [x * shorter, y * shorter, z * shorter];
+    }));
+}
+
+test("classes on meshes and sets that follow a density have the bytes of the Rust calls", () => {
+    const [positions, indices, normals] = sumsTorus();
+    const mesh = new azulejo.Mesh(positions, indices);
+    const masks = Array.from({ length: indices.length / 3 }, (_, i) => (i % 9 < 5 ? 7 : i % 8));
+    const isSum = (name, set) => hasSum(name, set.positions, set.normals, interpolated(set, indices, normals),
+        set.triangles, set.barycentrics, set.ranks ?? [], set.classes, set.radii ?? []);
+    assert.ok(isSum("classes", azulejo.pspSampleClasses(mesh, { masks, seed: 46 }, classRadii([0.05, 0.1, 0.05]))));
+    const values = Float32Array.from({ length: positions.length / 3 }, (_, i) =>
+        Math.max(Math.fround(positions[3 * i] + Math.fround(0.5 * positions[3 * i + 2])), 0));
+    const density = { values, count: 2000 };
+    const dense = azulejo.pspClassesWithDensity(mesh, { masks, seed: 48 }, classRadii([1, 2, 1]), density);
+    assert.ok(isSum("classes, density", dense));
+    assert.ok(!isSum("classes", dense));
     mesh.free();
 });
 
@@ -390,7 +447,9 @@ function hasSum(name, ...arrays) {
     const sums = String(readFileSync(new URL("../../../tests/sums.txt", import.meta.url))).split("\n");
     const line = sums.find((line) => line.slice(66).startsWith(`${name} (`));
     const hash = createHash("sha256");
-    for (const array of arrays) hash.update(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
+    for (const { buffer, byteOffset, byteLength } of arrays.filter((array) => array.length > 0)) {
+        hash.update(new Uint8Array(buffer, byteOffset, byteLength));
+    }
     return line.startsWith(hash.digest("hex"));
 }
 

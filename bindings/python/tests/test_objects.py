@@ -101,11 +101,11 @@ def test_pickled_points_go_on(all_sets):
         again = pickle.loads(pickle.dumps(points))
         assert same(azulejo.dcr_relax(again).positions, azulejo.dcr_relax(points).positions)
         assert azulejo.plane_covering_radius(again) == azulejo.plane_covering_radius(points)
-    set = azulejo.Psp(mesh(), 0.2)
-    set.fill()
-    erased = set.erase([1, 0, 0], 0.5)
-    set.restore(pickle.loads(pickle.dumps(erased)))
-    assert len(erased) > 5 and len(set.refill()) == 0
+    growing = azulejo.Psp(mesh(), 0.2)
+    growing.fill()
+    erased = growing.erase([1, 0, 0], 0.5)
+    growing.restore(pickle.loads(pickle.dumps(erased)))
+    assert len(erased) > 5 and len(growing.refill()) == 0
 
 
 def test_parts_have_all_that_is_known(all_sets):
@@ -153,7 +153,7 @@ def test_points_are_taken_as_dlpack(all_sets):
 
 def test_texts_are_readable(all_sets):
     points = all_sets["bounded"]
-    report = f"azulejo.KdrtReport(radius=0.05, is_maximal=True)"
+    report = "azulejo.KdrtReport(radius=0.05, is_maximal=True)"
     assert repr(points) == f"<azulejo.Points: {len(points)} in [0.0, 0.0] to [2.0, 1.0], bounded; {report}>"
     assert repr(points[:3]) == "<azulejo.Points: 3 in [0.0, 0.0] to [2.0, 1.0], bounded>"
     assert "on a mesh, with interpolated normals, ranks; azulejo.PspReport(radius=0.2, " in repr(all_sets["far mesh"])
