@@ -50,6 +50,11 @@ impl Plane {
     }
 }
 
+/// The number of samples of a set as text; that of one which another call changes is not known.
+pub(crate) fn counted(samples: Option<usize>) -> String {
+    samples.map_or_else(|| "in use".to_owned(), |samples| samples.to_string())
+}
+
 /// The region of a ball and a box, of which either may be missing; in the plane at height 0.
 pub(crate) fn region<const N: usize>(
     centre: Option<[f64; N]>,
@@ -113,6 +118,14 @@ impl Plane {
             Some(positions) => EditableSet::of(&request, positions),
         })?;
         Ok(Self { set: RwLock::new(set), frame })
+    }
+
+    fn __len__(&self) -> PyResult<usize> {
+        Ok(self.set.try_read().map_err(|error| locked(&error))?.len())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<azulejo.Plane: {} in {}>", counted(self.__len__().ok()), self.frame.shown())
     }
 
     /// A copy of the set as it is, as Points, by rising ids.

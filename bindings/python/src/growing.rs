@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::argument::{callable, maybe_real, maybe_triple, natural, real, whole};
 use crate::array::{Array, GivenArrays};
-use crate::edit::region;
+use crate::edit::{counted, region};
 use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -47,6 +47,14 @@ impl State {
         match self {
             Self::Edited(set) => set,
             _ => unreachable!("a panic between the two poisons the lock"),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Growing(psp) => psp.len(),
+            Self::Edited(set) => set.len(),
+            Self::Between => unreachable!("a panic between the two poisons the lock"),
         }
     }
 
@@ -170,6 +178,14 @@ impl Psp {
                 set.refill(context, set.seed(), progress).map(|(_, report)| report)
             }
         })
+    }
+
+    fn __len__(&self) -> PyResult<usize> {
+        Ok(self.state.try_read().map_err(|error| locked(&error))?.len())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<azulejo.Psp: {} on a mesh>", counted(self.__len__().ok()))
     }
 
     /// A copy of the set as it is, as Points, in the order in which samples were accepted; of a set that has been edited

@@ -264,6 +264,11 @@ impl KdrtPlane {
         Ok(Self { plane, frame, has_classes: classes.is_some() })
     }
 
+    fn __repr__(&self) -> String {
+        let classes = if self.has_classes { ", of several classes" } else { "" };
+        format!("<azulejo.KdrtPlane: {}{classes}>", self.frame.shown())
+    }
+
     /// The samples in a window, on the calling thread: the same as in the set of kdrt_sample, to the byte.
     ///
     /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at

@@ -118,7 +118,8 @@ def test_parts_have_all_that_is_known(all_sets):
                 whole, some = getattr(points, column), getattr(part, column)
                 expected = whole if whole is None or column == "origin" else whole[key]
                 assert same(some, expected), (name, column)
-            assert (part.domain_min, part.domain_max, part.boundary) == (points.domain_min, points.domain_max, points.boundary)
+            assert (part.domain_min, part.domain_max) == (points.domain_min, points.domain_max)
+            assert part.boundary == points.boundary
             assert part.report is None
 
 
@@ -162,10 +163,30 @@ def test_texts_are_readable(all_sets):
     assert repr(azulejo.thin([[0, 0], [1, 1]], radius=0.5)) == "<azulejo.Selection: 2>"
 
 
+def test_living_sets_have_a_length():
+    plane, growing = azulejo.Plane(0.1), azulejo.Psp(mesh(), 0.2)
+    assert len(growing) == 0 and repr(growing) == "<azulejo.Psp: 0 on a mesh>"
+    growing.fill()
+    for living in (plane, growing):
+        before = len(living)
+        assert before == len(living.points()) > 50
+        erased = living.erase([1, 0] if living is plane else [1, 0, 0], 0.4)
+        assert len(living) == before - len(erased) < before
+    assert repr(plane) == f"<azulejo.Plane: {len(plane)} in [0.0, 0.0] to [1.0, 1.0], periodic>"
+    unit = "[0.0, 0.0] to [1.0, 1.0], periodic"
+    assert repr(azulejo.KdrtPlane(radii=[[0.1]])) == f"<azulejo.KdrtPlane: {unit}, of several classes>"
+    texts = []
+    plane.refill(progress=lambda done: texts.append(repr(plane)))
+    assert set(texts) == {"<azulejo.Plane: in use in [0.0, 0.0] to [1.0, 1.0], periodic>"}
+    with pytest.raises(RuntimeError, match="in use"):
+        plane.refill(progress=lambda done: len(plane))
+
+
 def test_reports_are_what_their_text_says(all_sets):
     reports = [points.report for points in all_sets.values() if points.report is not None]
     xy = azulejo.kdrt_sample(0.05)
-    reports += [azulejo.plane_measure(xy), azulejo.plane_coverage(xy, 0.05), azulejo.Spectrum(xy, 16).measure(0.1, 0.5, 0.1)]
+    reports += [azulejo.plane_measure(xy), azulejo.plane_coverage(xy, 0.05)]
+    reports.append(azulejo.Spectrum(xy, 16).measure(0.1, 0.5, 0.1))
     reports.append(azulejo.dcr_remesh(mesh(), all_sets["mesh"].triangles, all_sets["mesh"].barycentrics)[1])
     reports.append(azulejo.kdrt_merge([(xy, (0, 0), (1, 1))], 0.05).report)
     kinds = {name for name in dir(azulejo) if name.endswith("Report")}
