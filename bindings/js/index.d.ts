@@ -1,5 +1,6 @@
 /**
- * Blue-noise sampling: maximal Poisson-disk sets of the plane and of triangle meshes, relaxation, thinning, analysis.
+ * Blue-noise sampling: maximal Poisson-disk sets of the plane, of triangle meshes and of boxes, relaxation, thinning,
+ * analysis.
  *
  * A radius is the smallest distance between two samples, centre to centre. Positions are packed: x y or x y z of each
  * sample. The same options and seed give the same bytes, everywhere. Calls run to their end on the calling thread; use
@@ -29,7 +30,7 @@ export interface Domain {
 }
 
 export interface Given {
-    /** Existing samples, packed: they stay, are not returned, and cover the area within their clearance. */
+    /** Existing samples, packed: they stay, are not returned, and cover what is within their clearance. */
     givenPositions?: Numbers | null;
     /** The clearance of each, 0 or more; by default the radius of the set. */
     givenClearances?: Numbers | null;
@@ -79,11 +80,10 @@ export function kdrtSampleWindow(
 
 /**
  * Samples of several classes. `radii`: a symmetric matrix, row by row, of the smallest distance of samples of two classes.
- * The `radius` of the options must be 0.
+ * The `radius` and `count` of the options must be 0. `givenClearances` have a number for each class, given sample by given
+ * sample. In progressive order each class is sorted coarse to fine.
  */
-export function kdrtSampleClasses(options: PlaneOptions, radii: Numbers): {
-    /** x y of each sample. */
-    positions: Float32Array;
+export function kdrtSampleClasses(options: PlaneOptions, radii: Numbers): PlaneSamples & {
     /** The class of each sample: its row in the matrix. */
     classes: Uint32Array;
 };
@@ -96,10 +96,14 @@ declare class Handle {
 }
 
 /** The common part of all windows of a plane, made once. */
-export class Plane extends Handle {
-    constructor(options: PlaneOptions);
+export class KdrtPlane extends Handle {
+    /** `radii`: of several classes, as in kdrtSampleClasses. */
+    constructor(options: PlaneOptions, radii?: Numbers | null);
     /** The samples with `windowMin <= x < windowMax`. */
-    window(windowMin: readonly [number, number], windowMax: readonly [number, number]): PlaneSamples;
+    window(windowMin: readonly [number, number], windowMax: readonly [number, number]): PlaneSamples & {
+        /** Of several classes: that of each sample. */
+        classes?: Uint32Array;
+    };
 }
 
 /** Triangles in space; they need not be connected. */
@@ -144,6 +148,187 @@ export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples &
     radius: number;
     /** A bound of the distance of any place of the surface from the samples, where one is known. */
     coveringRadius?: number;
+};
+
+/** Options of sets on a mesh whose radius varies. */
+export interface VaryingOptions extends Given, Ordering {
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+    /** Samples on triangles whose normals have a smaller cosine ignore each other; -1, the default: none do. */
+    cosine?: number;
+}
+
+/** The density of a set on a mesh, in any unit, 0 or more, and what it means: `radius` or `count`. */
+export interface MeshDensity {
+    /** A number for each vertex, interpolated on the triangles; or the pixels of an image, row by row. */
+    values: Numbers;
+    /** The radius where the density is 1. */
+    radius?: number;
+    /** About how many samples the set has, exactly in progressive order; of classes one of radius 1 by itself. */
+    count?: number;
+    /** Of an image: pixels in a row, over which u goes from 0 to 1. */
+    width?: number;
+    /** Of an image: rows, the first of which lies along v = 0. */
+    height?: number;
+    /** Of an image: u v of each vertex, or else of the three corners of each triangle. */
+    texture?: Numbers | null;
+}
+
+export interface VaryingSamples extends SurfaceSamples {
+    /** The radius of each sample: two are at least the mean of theirs apart. */
+    radii: Float64Array;
+}
+
+/**
+ * A maximal set on a mesh with a radius for each vertex, interpolated on the triangles. Given samples need clearances. In
+ * progressive order the rank of a sample is what the radii of all samples up to it are multiplied by.
+ */
+export function pspAdaptiveSample(mesh: Mesh, options: VaryingOptions, vertexRadii: Numbers): VaryingSamples & {
+    /** 0, or in progressive order what the radii were multiplied by: 1. */
+    radius: number;
+};
+
+/** A maximal set on a mesh whose radius follows from a density; ranks are radii at density 1. */
+export function pspAdaptiveWithDensity(mesh: Mesh, options: VaryingOptions, density: MeshDensity): VaryingSamples & {
+    /** 0, or in progressive order the radius at density 1. */
+    radius: number;
+};
+
+/** Options of sets of several classes on a mesh. */
+export interface ClassOptions extends VaryingOptions {
+    /** Of each triangle the classes that it takes, bit i for class i; by default all. */
+    masks?: Numbers | null;
+}
+
+export interface ClassSamples extends SurfaceSamples {
+    /** The class of each sample: its row in the matrix. */
+    classes: Uint32Array;
+}
+
+/** Samples of several classes on a mesh; `radii` and clearances as in kdrtSampleClasses. */
+export function pspSampleClasses(mesh: Mesh, options: ClassOptions, radii: Numbers): ClassSamples;
+
+/**
+ * The same where the radii are multiples of a local radius, which follows from a density: two samples keep the number of the
+ * matrix times the mean of their local radii. With a `radius` of 1 `radii` are those at density 1.
+ */
+export function pspClassesWithDensity(
+    mesh: Mesh,
+    options: ClassOptions,
+    radii: Numbers,
+    density: MeshDensity,
+): ClassSamples & {
+    /** The local radius of each sample. */
+    radii: Float64Array;
+};
+
+/** A ball, a box, or what both have in common; by default everywhere. Two numbers for each place in the plane, or three. */
+export interface Region {
+    /** The centre of the ball. */
+    centre?: readonly number[] | null;
+    /** The radius of the ball. */
+    radius?: number | null;
+    /** The lower corner of the box. */
+    min?: readonly number[] | null;
+    /** The upper corner of the box. */
+    max?: readonly number[] | null;
+}
+
+/** Samples of the plane with their ids. */
+export interface EditedPlaneSamples {
+    /** x y of each sample. */
+    positions: Float32Array;
+    /** The id of each: a whole number that it keeps until it is erased, and that no other sample ever gets. */
+    ids: Float64Array;
+}
+
+/** Samples of a mesh with their ids. */
+export interface EditedSurfaceSamples extends SurfaceSamples {
+    /** As those of EditedPlaneSamples; none before the first edit. */
+    ids: Float64Array;
+}
+
+/**
+ * A set that is edited. To undo a stroke of a brush, erase what `refill` added by its ids, and restore what `erase` returned:
+ * the set is then as before, to the bit. To redo it, erase the same region and refill with the same seed.
+ */
+declare class EditedSet<Samples> extends Handle {
+    /** A copy of the set as it is. */
+    points(): Samples;
+    /** Erases the samples in a region, and returns them. On a torus it may reach over the seam. */
+    erase(region?: Region): Samples;
+    /** Erases samples by their ids, and returns them. */
+    eraseIds(ids: Numbers): Samples;
+    /** Puts samples back that were erased; refused if one is too close to a sample or a given one by now. */
+    restore(samples: Samples): void;
+    /**
+     * Adds given samples to those that the set was made with; samples that are too close to one are erased. `first`: the id
+     * of the first of them, which the others follow.
+     */
+    addGiven(positions: Numbers, clearances?: Numbers | null): { first: number; erased: Samples };
+    /** Removes given samples by their ids: 0, 1, 2 and so on for those that the set was made with. */
+    removeGiven(ids: Numbers): void;
+    /** Makes the set maximal again, and returns the new samples; looks only where edits can have left gaps. */
+    refill(seed?: Seed): Samples;
+}
+
+export interface EditedPlaneOptions extends Domain, Given {
+    /** The smallest distance of two samples, in the units of the domain. Required. */
+    radius: number;
+    /** The shortest side of the leaves that tile the domain, in radii: at least 6, default 20. */
+    leafSize?: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/** A set of the plane that is edited: that of kdrtSample, or any `positions` of which no two are closer than the radius. */
+export class Plane extends EditedSet<EditedPlaneSamples> {
+    constructor(options: EditedPlaneOptions, positions?: Numbers | null);
+}
+
+export interface GrowingOptions extends Given {
+    /** The smallest straight distance of two samples, in the units of the mesh. Required. */
+    radius: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+    /** Samples on triangles whose normals have a smaller cosine ignore each other; -1, the default: none do. */
+    cosine?: number;
+}
+
+/** A set on a mesh, empty at first, that grows, call by call, and is edited. */
+export class Psp extends EditedSet<EditedSurfaceSamples> {
+    constructor(mesh: Mesh, options: GrowingOptions);
+    /** Adds samples by projections of patterns, until the first edit; returns their number. */
+    advance(iterations: number): number;
+    /** Adds samples until the set is maximal; returns their number. */
+    fill(): number;
+}
+
+export interface VolumeOptions extends Given, Ordering {
+    /** The smallest distance of two samples, in the units of the domain. Required, unless there is a count. */
+    radius?: number;
+    /** The exact number of samples; 0, the default: as many as the radius gives. Given samples then need clearances. */
+    count?: number;
+    /** The lower corner of the cuboid; default [0, 0, 0]. */
+    domainMin?: readonly [number, number, number];
+    /** The upper corner; default [1, 1, 1]. Samples have `domainMin <= x < domainMax`. */
+    domainMax?: readonly [number, number, number];
+    /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
+    boundary?: "periodic" | "bounded";
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/** A maximal Poisson-disk set of a cuboid. */
+export function volumeSample(options: VolumeOptions): {
+    /** x y z of each sample. */
+    positions: Float32Array;
+    /** As those of PlaneSamples. */
+    ranks?: Float32Array;
+    /** The radius, that of the options or the one found for the count. */
+    radius: number;
+    /** A bound of the distance of any place of the cuboid from the samples: for a count it is above the radius. */
+    coveringRadius: number;
 };
 
 export interface RelaxOptions extends Domain {

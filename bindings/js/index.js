@@ -1,5 +1,5 @@
-// azulejo for JavaScript: blue-noise sampling of planes and triangle meshes, relaxation, analysis, in WebAssembly on one
-// thread. index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that
+// azulejo for JavaScript: blue-noise sampling of planes, triangle meshes and boxes, relaxation, analysis, in WebAssembly on
+// one thread. index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that
 // what a call returns is an ordinary typed array of the caller's.
 
 let wasm;
@@ -35,6 +35,18 @@ const SURFACE = {
     radius: 0, count: 0, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, cosine: -1, iterations: -1, maximal: true,
     givenPositions: null, givenClearances: null,
 };
+const VARYING = {
+    seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, cosine: -1, givenPositions: null, givenClearances: null,
+};
+const CLASSES = { ...VARYING, masks: null };
+const DENSITY = { values: null, radius: 0, count: 0, width: 0, height: 0, texture: null };
+const EDITED_PLANE = { ...DOMAIN, radius: 0, leafSize: 20, seed: 0, givenPositions: null, givenClearances: null };
+const GROWING = { radius: 0, seed: 0, cosine: -1, givenPositions: null, givenClearances: null };
+const REGION = { centre: null, radius: null, min: null, max: null };
+const VOLUME = {
+    radius: 0, count: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic", seed: 0, order: "any",
+    quotient: DEFAULT_QUOTIENT, givenPositions: null, givenClearances: null,
+};
 const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
 const THIN = { radius: 0, count: 0, order: "any", seed: 0 };
@@ -69,13 +81,13 @@ function seedOf({ seed }) {
     throw new RangeError(`seed: ${seed} is not a whole number from 0 to 2^64 - 1`);
 }
 
-function corner(name, value) {
-    if (value?.length === 2 && [...value].every((x) => typeof x === "number")) return [...value];
-    throw new TypeError(`${name}: not two numbers`);
+function corner(name, value, axes = 2) {
+    if (value?.length === axes && [...value].every((x) => typeof x === "number")) return [...value];
+    throw new TypeError(`${name}: not ${axes === 2 ? "two" : "three"} numbers`);
 }
 
-function domainOf({ domainMin, domainMax, boundary }) {
-    const corners = [...corner("domainMin", domainMin), ...corner("domainMax", domainMax)];
+function domainOf({ domainMin, domainMax, boundary }, axes = 2) {
+    const corners = [...corner("domainMin", domainMin, axes), ...corner("domainMax", domainMax, axes)];
     return [...corners, constant("boundary", boundary, BOUNDED)];
 }
 
@@ -148,12 +160,17 @@ function calling(body) {
     }
 }
 
+// A radius and a count, of which one is 0.
+function amount(radius, count) {
+    if (count > 0 && radius !== 0) throw new RangeError(`radius: ${radius}, but there is a count, from which it follows`);
+    return [radius, whole("count", count)];
+}
+
 function planeOptions(call, options) {
     const { radius, count, leafSize, order, quotient, coarsest } = options;
     const numbers = [
-        radius, whole("count", count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
+        ...amount(radius, count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
     ];
-    if (count > 0 && radius !== 0) throw new RangeError(`radius: ${radius}, but there is a count, from which it follows`);
     return call.rows("options", numbers, Float64Array, numbers.length)[0];
 }
 
@@ -178,7 +195,7 @@ export function kdrtSample(options) {
 }
 
 export function kdrtSampleWindow(options, windowMin, windowMax) {
-    const plane = new Plane(options);
+    const plane = new KdrtPlane(options);
     try {
         return plane.window(windowMin, windowMax);
     } finally {
@@ -186,14 +203,21 @@ export function kdrtSampleWindow(options, windowMin, windowMax) {
     }
 }
 
+// The radii of classes of the plane.
+function matrix(call, { radius, count }, radii) {
+    if (radius !== 0) throw new RangeError(`radius: ${radius}, but classes have radii of their own`);
+    if (count !== 0) throw new RangeError(`count: ${count}, but classes are made by their radii`);
+    return call.rows("radii", radii, Float64Array, 1);
+}
+
 export function kdrtSampleClasses(options, radii) {
     options = withDefaults(PLANE, options);
     return calling((call) => {
-        if (options.givenPositions?.length) throw new RangeError("givenPositions: must be none in sets of classes");
-        const matrix = call.rows("radii", radii, Float64Array, 1);
-        const args = [planeOptions(call, options), seedOf(options), ...matrix];
-        const [positions, classes] = call.make("kdrt_sample_classes", args, Float32Array, Uint32Array);
-        return { positions, classes };
+        const own = matrix(call, options, radii);
+        const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own];
+        const types = [Float32Array, Uint32Array, Float32Array];
+        const [positions, classes, ranks] = call.make("kdrt_sample_classes", args, ...types);
+        return withRanks({ positions, classes }, ranks);
     });
 }
 
@@ -201,16 +225,18 @@ export function kdrtSampleClasses(options, radii) {
 class Handle {
     #pointer;
     #kind;
+    #name;
     static #registry = new FinalizationRegistry(([kind, pointer]) => wasm[`azulejo_${kind}_free`](pointer));
 
-    constructor(kind, pointer) {
+    constructor(kind, pointer, name = kind) {
         this.#pointer = pointer;
         this.#kind = kind;
+        this.#name = name;
         Handle.#registry.register(this, [kind, pointer], this);
     }
 
     get pointer() {
-        if (this.#pointer === 0) throw new Error(`${this.#kind}: was freed`);
+        if (this.#pointer === 0) throw new Error(`${this.#name}: was freed`);
         return this.#pointer;
     }
 
@@ -225,24 +251,29 @@ if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.free;
 
 const read = (pointer) => new Uint32Array(wasm.memory.buffer, pointer, 1)[0];
 
-export class Plane extends Handle {
-    constructor(options) {
+export class KdrtPlane extends Handle {
+    #hasClasses;
+
+    constructor(options, radii = null) {
         options = withDefaults(PLANE, options);
         const pointer = calling((call) => {
             if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+            const own = radii === null ? [0, 0] : matrix(call, options, radii);
             const out = call.handle();
-            call.make("plane_create", [planeOptions(call, options), seedOf(options), ...given(call, options, 2), out]);
+            const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own, out];
+            call.make("kdrt_create", args);
             return read(out);
         });
-        super("plane", pointer);
+        super("kdrt", pointer, "plane");
+        this.#hasClasses = radii !== null;
     }
 
     window(windowMin, windowMax) {
         const corners = [...corner("windowMin", windowMin), ...corner("windowMax", windowMax)];
         return calling((call) => {
-            const types = [Float32Array, Float32Array];
-            const [positions, ranks] = call.make("plane_window", [this.pointer, ...corners], ...types);
-            return withRanks({ positions }, ranks);
+            const types = [Float32Array, Float32Array, Uint32Array];
+            const [positions, ranks, classes] = call.make("kdrt_window", [this.pointer, ...corners], ...types);
+            return withRanks({ positions, ...(this.#hasClasses ? { classes } : {}) }, ranks);
         });
     }
 }
@@ -288,8 +319,195 @@ export function pspSample(mesh, options) {
     });
 }
 
+export function volumeSample(options) {
+    options = withDefaults(VOLUME, options);
+    return calling((call) => {
+        const { radius, count, order, quotient } = options;
+        const numbers = [...amount(radius, count), ...domainOf(options, 3), constant("order", order, ORDERS), quotient];
+        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const types = [Float32Array, Float32Array, Float64Array];
+        const args = [place, seedOf(options), ...given(call, options, 3)];
+        const [positions, ranks, [found, coveringRadius]] = call.make("volume_sample", args, ...types);
+        return withRanks({ positions, radius: found, coveringRadius }, ranks);
+    });
+}
+
+function density(of) {
+    const options = withDefaults(DENSITY, of);
+    const { values, radius, count, width, height } = options;
+    if (values === null) throw new TypeError("values: a density needs some");
+    if ((radius === 0) === (count === 0)) {
+        throw new RangeError(`radius: ${radius}, and count ${count}: one of them must be 0`);
+    }
+    return { ...options, kind: 2, size: [whole("width", width), whole("height", height)] };
+}
+
+const RADII_OF_VERTICES = { kind: 1, radius: 0, count: 0, size: [0, 0], texture: null };
+const NO_RADII = { ...RADII_OF_VERTICES, kind: 0, values: null };
+
+// The arguments of sets whose radius varies, or could.
+function varying(call, mesh, options, { kind, radius, count, size, values, texture }, name) {
+    const { order, quotient, cosine } = options;
+    const numbers = [constant("order", order, ORDERS), quotient, cosine, kind, radius, count, ...size];
+    return [
+        meshPointer(mesh), call.rows("options", numbers, Float64Array, numbers.length)[0], seedOf(options),
+        ...given(call, options, 3), ...call.rows(name, values, Float32Array, 1),
+        ...call.rows("texture", texture, Float32Array, 2),
+    ];
+}
+
+function adaptive(mesh, options, unit, name) {
+    options = withDefaults(VARYING, options);
+    return calling((call) => {
+        const args = varying(call, mesh, options, unit, name);
+        const arrays = call.make("psp_adaptive", args, ...SAMPLES, Float64Array, Float64Array);
+        const [radii, [radius]] = arrays.slice(SAMPLES.length);
+        return { ...surfaceSamples(arrays), radii, radius };
+    });
+}
+
+export function pspAdaptiveSample(mesh, options, vertexRadii) {
+    return adaptive(mesh, options, { ...RADII_OF_VERTICES, values: vertexRadii }, "vertexRadii");
+}
+
+export function pspAdaptiveWithDensity(mesh, options, of) {
+    return adaptive(mesh, options, density(of), "density");
+}
+
+function inClasses(mesh, options, radii, unit) {
+    options = withDefaults(CLASSES, options);
+    return calling((call) => {
+        const args = [
+            ...varying(call, mesh, options, unit, "density"), ...call.rows("radii", radii, Float64Array, 1),
+            ...call.rows("masks", options.masks, Uint32Array, 1),
+        ];
+        const arrays = call.make("psp_sample_classes", args, ...SAMPLES, Uint32Array, Float64Array);
+        const [classes, localRadii] = arrays.slice(SAMPLES.length);
+        return { ...surfaceSamples(arrays), classes, ...(unit.kind === 0 ? {} : { radii: localRadii }) };
+    });
+}
+
+export function pspSampleClasses(mesh, options, radii) {
+    return inClasses(mesh, options, radii, NO_RADII);
+}
+
+export function pspClassesWithDensity(mesh, options, radii, of) {
+    return inClasses(mesh, options, radii, density(of));
+}
+
 // The last of some arrays before the others.
 const last = (arrays) => [arrays.at(-1), ...arrays.slice(0, -1)];
+
+// A set that is edited: of the plane, or on a mesh.
+class EditedSet extends Handle {
+    #axes;
+
+    constructor(pointer, axes) {
+        super("set", pointer);
+        this.#axes = axes;
+    }
+
+    // What a call returns of samples, and what comes behind it.
+    #edited(call, name, args, ...more) {
+        const types = [Float32Array, Float32Array, Uint32Array, Float32Array, Float64Array, ...more];
+        const arrays = call.make(`set_${name}`, [this.pointer, ...args], ...types);
+        const [positions, normals, triangles, barycentrics, ids, ...rest] = arrays;
+        const samples = this.#axes === 2 ? { positions, ids } : { positions, normals, triangles, barycentrics, ids };
+        return [samples, ...rest];
+    }
+
+    points() {
+        return calling((call) => this.#edited(call, "points", [])[0]);
+    }
+
+    erase(region) {
+        const { centre, radius, min, max } = withDefaults(REGION, region);
+        if ((centre === null) !== (radius === null)) {
+            const [missing, other] = centre === null ? ["centre", "radius"] : ["radius", "centre"];
+            throw new TypeError(`${missing}: none, but there is a ${other}`);
+        }
+        if (radius !== null && typeof radius !== "number") throw new TypeError(`radius: ${radius} is not a number`);
+        const height = Array(3 - this.#axes).fill(0);
+        const place = (name, value, usual) => (value === null ? usual : [...corner(name, value, this.#axes), ...height]);
+        return calling((call) => {
+            const bounds = [
+                ...place("min", min, Array(3).fill(-Infinity)), ...place("max", max, Array(3).fill(Infinity)),
+                ...place("centre", centre, [0, 0, 0]), radius ?? Infinity,
+            ];
+            return this.#edited(call, "erase", [call.rows("region", bounds, Float64Array, 10)[0]])[0];
+        });
+    }
+
+    eraseIds(ids) {
+        return calling((call) => this.#edited(call, "erase_ids", call.rows("ids", ids, Float64Array, 1))[0]);
+    }
+
+    restore({ positions, triangles = null, barycentrics = null, ids }) {
+        calling((call) => {
+            const [place, count] = call.rows("positions", positions, Float32Array, this.#axes);
+            call.make("set_restore", [
+                this.pointer, place, count * this.#axes, ...call.rows("triangles", triangles, Uint32Array, 1),
+                ...call.rows("barycentrics", barycentrics, Float32Array, 2), ...call.rows("ids", ids, Float64Array, 1),
+            ]);
+        });
+    }
+
+    addGiven(positions, clearances = null) {
+        return calling((call) => {
+            const [place, count] = call.rows("givenPositions", positions, Float32Array, this.#axes);
+            const args = [place, count * this.#axes, ...call.rows("givenClearances", clearances, Float64Array, 1)];
+            const [erased, [first]] = this.#edited(call, "add_given", args, Float64Array);
+            return { first, erased };
+        });
+    }
+
+    removeGiven(ids) {
+        calling((call) => call.make("set_remove_given", [this.pointer, ...call.rows("ids", ids, Float64Array, 1)]));
+    }
+
+    refill(seed = 0) {
+        return calling((call) => this.#edited(call, "refill", [seedOf({ seed })])[0]);
+    }
+}
+
+export class Plane extends EditedSet {
+    constructor(options, positions = null) {
+        options = withDefaults(EDITED_PLANE, options);
+        const pointer = calling((call) => {
+            const out = call.handle();
+            const numbers = planeOptions(call, { ...PLANE, ...options });
+            const begun = [positions === null ? 0 : 1, ...call.rows("positions", positions, Float32Array, 2)];
+            call.make("plane_create", [numbers, seedOf(options), ...given(call, options, 2), ...begun, out]);
+            return read(out);
+        });
+        super(pointer, 2);
+    }
+}
+
+export class Psp extends EditedSet {
+    constructor(mesh, options) {
+        options = withDefaults(GROWING, options);
+        const pointer = calling((call) => {
+            const out = call.handle();
+            const { radius, cosine } = options;
+            const args = [meshPointer(mesh), radius, cosine, seedOf(options), ...given(call, options, 3), out];
+            call.make("psp_create", args);
+            return read(out);
+        });
+        super(pointer, 3);
+    }
+
+    advance(iterations) {
+        return calling((call) => {
+            const args = [this.pointer, whole("iterations", iterations)];
+            return call.make("set_advance", args, Float64Array)[0][0];
+        });
+    }
+
+    fill() {
+        return calling((call) => call.make("set_fill", [this.pointer], Float64Array)[0][0]);
+    }
+}
 
 export function dcrRelax(positions, options) {
     options = withDefaults(RELAX, options);

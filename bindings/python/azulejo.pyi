@@ -1,8 +1,8 @@
-"""Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation."""
+"""Blue-noise sampling: maximal Poisson-disk sets in the plane, on triangle meshes and in space, and their relaxation."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
-from typing import Any, Literal, Optional, Protocol, SupportsFloat, SupportsIndex, Union
+from typing import Any, Literal, Optional, Protocol, SupportsFloat, SupportsIndex, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -65,14 +65,30 @@ class Points:
     @property
     def report(self) -> Any: ...
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[_Floats]: ...
+    @overload
+    def __getitem__(self, key: Union[int, np.integer[Any]]) -> _Floats: ...
+    @overload
+    def __getitem__(self, key: tuple[Any, ...]) -> Any: ...
+    @overload
+    def __getitem__(self, key: Union[slice, NDArray[Any], Sequence[int]]) -> Points: ...
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]: ...
-
+    def __dlpack__(self, **options: Any) -> Any: ...
+    def __dlpack_device__(self) -> tuple[int, int]: ...
 
 class KdrtReport:
     @property
     def radius(self) -> float: ...
     @property
     def is_maximal(self) -> bool: ...
+
+class VolumeReport:
+    @property
+    def radius(self) -> float: ...
+    @property
+    def covering_radius(self) -> float: ...
+    @property
+    def seconds(self) -> float: ...
 
 class KdrtMergeReport:
     @property
@@ -119,6 +135,7 @@ class Plane:
         threads: SupportsIndex = 0,
         progress: _Progress = None,
     ) -> None: ...
+    def __len__(self) -> int: ...
     def points(self) -> Points: ...
     def erase(
         self,
@@ -169,6 +186,12 @@ class Mesh:
     @property
     def has_normals(self) -> bool: ...
     @property
+    def normals(self) -> Optional[NDArray[np.float32]]: ...
+    @property
+    def normal_indices(self) -> Optional[NDArray[np.uint32]]: ...
+    @property
+    def mask(self) -> Optional[NDArray[np.bool_]]: ...
+    @property
     def area(self) -> float: ...
 
 class PspReport:
@@ -210,6 +233,7 @@ class Psp:
         self, iterations: SupportsIndex, *, threads: SupportsIndex = 0, progress: _Progress = None
     ) -> PspReport: ...
     def fill(self, *, threads: SupportsIndex = 0, progress: _Progress = None) -> PspReport: ...
+    def __len__(self) -> int: ...
     def points(self) -> Points: ...
     def erase(
         self,
@@ -279,6 +303,9 @@ class Selection:
     @property
     def ranks(self) -> Optional[NDArray[np.float32]]: ...
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[np.uint32]: ...
+    def __getitem__(self, key: Any) -> Any: ...
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]: ...
 
 class CoverageReport:
     @property
@@ -450,6 +477,21 @@ def maximal_sample(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def volume_sample(
+    radius: Optional[SupportsFloat] = 0.0,
+    *,
+    count: Optional[SupportsIndex] = 0,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def kdrt_merge(
     pieces: Sequence[tuple[ArrayLike, _Numbers, _Numbers]],
     radius: SupportsFloat,
@@ -484,6 +526,24 @@ def psp_sample_classes(
     mesh: _MeshLike,
     radii: ArrayLike,
     *,
+    masks: Optional[ArrayLike] = None,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    cosine: Optional[SupportsFloat] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def psp_classes_with_density(
+    mesh: _MeshLike,
+    radii: ArrayLike,
+    density: ArrayLike,
+    *,
+    radius: Optional[SupportsFloat] = 0.0,
+    count: Optional[SupportsFloat] = 0.0,
+    texture: Optional[ArrayLike] = None,
     masks: Optional[ArrayLike] = None,
     order: _Order = "any",
     quotient: Optional[SupportsFloat] = None,

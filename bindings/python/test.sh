@@ -112,9 +112,9 @@ run_tests_on_arm64() { # WHEEL
     "$work/tools/bin/pip" install --quiet --disable-pip-version-check --target "$site" --upgrade --only-binary :all: \
         --platform manylinux2014_aarch64 --platform manylinux_2_27_aarch64 --python-version "$version" \
         "$1" pytest --constraint tools.txt
-    # Qemu runs no child of an emulated program, which the tests of Ctrl-C have, and its times say nothing.
+    # Qemu runs no child of an emulated program, which the tests of Ctrl-C and other processes have, and its times say nothing.
     PYTHONPATH=$site qemu-aarch64-static -L "$work/arm64/python/root" "$python" -m pytest --quiet --no-header \
-        -p no:cacheprovider -k "not ctrl_c and not microseconds and not dragon" tests
+        -p no:cacheprovider -k "not ctrl_c and not microseconds and not dragon and not processes" tests
 }
 
 rm -rf "$wheels"

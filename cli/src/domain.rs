@@ -1,4 +1,5 @@
-//! The domain of a set of the plane: the one asked for, or the one of the file, or a guess from the points.
+//! The domain of a set of the plane: the one asked for, or the one of the file, or a guess from the points; and the cuboid
+//! of a set in space.
 
 use azulejo::{Boundary, Domain};
 use clap::Args;
@@ -17,6 +18,31 @@ pub struct DomainArgs {
     /// The rectangle ends at its boundary; otherwise it is periodic.
     #[arg(long)]
     bounded: bool,
+}
+
+/// The cuboid of a set in space.
+#[derive(Args)]
+pub struct CuboidArgs {
+    /// The corners of the cuboid [default: the unit cube].
+    #[arg(
+        long, visible_alias = "box", num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"],
+        allow_negative_numbers = true
+    )]
+    domain: Option<Vec<f64>>,
+    /// The cuboid ends at its faces; otherwise it is periodic.
+    #[arg(long)]
+    bounded: bool,
+}
+
+impl CuboidArgs {
+    /// The cuboid asked for, or the unit cube.
+    pub fn or_unit(&self) -> Domain<3> {
+        let boundary = if self.bounded { Boundary::Bounded } else { Boundary::Periodic };
+        match self.domain.as_deref() {
+            Some(&[x0, y0, z0, x1, y1, z1]) => Domain { min: [x0, y0, z0], max: [x1, y1, z1], boundary },
+            _ => Domain::unit(boundary),
+        }
+    }
 }
 
 impl DomainArgs {

@@ -1,12 +1,12 @@
 //! Files of points: PLY, NPY, CSV, XYZ and raw floats, in and out.
 //!
-//! | format | plane | surface | domain |
+//! | format | plane, cuboid | surface | domain |
 //! |---|---|---|---|
-//! | PLY | `x y z`, z being 0, and perhaps `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
-//! | NPY | array of `(n, 2)` floats; structured array of `x y` and `rank` or `class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
-//! | CSV | columns `x,y` and perhaps `rank`, `class` under a header | all columns of PLY under a header | - |
-//! | XYZ | lines `x y 0` | lines `x y z nx ny nz` | - |
-//! | raw | `x y` as little-endian floats | - | - |
+//! | PLY | `x y z`, in the plane z being 0, and perhaps `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
+//! | NPY | array of `(n, 2)` or `(n, 3)` floats; structured array of `x y`, in a cuboid `z`, and `rank` or `class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
+//! | CSV | columns `x,y`, in a cuboid `z`, and perhaps `rank`, `class` under a header | all columns of PLY under a header | - |
+//! | XYZ | lines `x y 0` or `x y z` | lines `x y z nx ny nz` | - |
+//! | raw | `x y` or `x y z` as little-endian floats | - | - |
 //!
 //! Input may have more: integers and doubles, big-endian arrays, other columns, comments. The number of dimensions, two
 //! or three, follows from the file, except for raw floats, where the user states it. Ranks are not read: the order of
@@ -16,7 +16,7 @@ pub mod columns;
 #[cfg(test)]
 mod hostile;
 mod npy;
-pub mod plane;
+pub mod points;
 mod raw;
 mod records;
 pub mod set;
@@ -32,7 +32,7 @@ use crate::input;
 use crate::output::Output;
 use crate::ply;
 use columns::write_floats;
-use plane::PlaneTable;
+use points::PointTable;
 use records::Records;
 use set::{PlaneSet, PointSet, SampleSet};
 use surface::SurfaceTable;
@@ -45,13 +45,13 @@ pub const ON_MESH: &str = "give the mesh that they lie on by --mesh";
 pub enum Format {
     /// The Stanford polygon format, written as binary; it alone keeps the domain.
     Ply,
-    /// A NumPy array: two columns for the plane, a structured array for samples of a mesh.
+    /// A NumPy array: two columns for the plane, three for a cuboid, a structured array for samples of a mesh.
     Npy,
     /// Comma-separated values under a header.
     Csv,
     /// One point per line, coordinates between spaces; of samples of a mesh the positions and normals alone.
     Xyz,
-    /// Little-endian 32-bit floats without a header, for points of the plane only.
+    /// Little-endian 32-bit floats without a header, for points of the plane or of a cuboid.
     Raw,
 }
 
@@ -221,7 +221,7 @@ impl Cloud {
 /// Where points go to.
 #[derive(Args)]
 pub struct Destination {
-    /// The samples: a .ply, .npy, .csv or .xyz file, or .raw for a set of the plane.
+    /// The samples: a .ply, .npy, .csv or .xyz file, or .raw unless they lie on a mesh.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// The format of the output [default: by the extension].
@@ -230,8 +230,8 @@ pub struct Destination {
 }
 
 impl Destination {
-    /// Checks before the work whether and how a file of a set of the plane can be written.
-    pub fn open_plane(&self) -> Result<PointFile> {
+    /// Checks before the work whether and how a file of a set of the plane or of a cuboid can be written.
+    pub fn open_points(&self) -> Result<PointFile> {
         let output = Output::at(&self.output)?;
         let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
         Ok(PointFile { output, format })
@@ -239,7 +239,7 @@ impl Destination {
 
     /// Checks before the work whether and how a file of a set of the plane of several classes can be written.
     pub fn open_classes(&self) -> Result<PointFile> {
-        let file = self.open_plane()?;
+        let file = self.open_points()?;
         if matches!(file.format, Format::Raw | Format::Xyz) {
             let reason = "this format has no place for the classes of samples: give .ply, .npy or .csv";
             return Err(format_error(&self.output, reason));
@@ -249,7 +249,7 @@ impl Destination {
 
     /// Checks before the work whether and how a file of samples of a surface can be written.
     pub fn open_surface(&self) -> Result<PointFile> {
-        let file = self.open_plane()?;
+        let file = self.open_points()?;
         if file.format == Format::Raw {
             let reason = "raw floats have no place for the normals, triangles and barycentrics of samples: \
                           give .ply, .npy or .csv, or .xyz for positions and normals";
@@ -266,13 +266,13 @@ pub struct PointFile {
 }
 
 impl PointFile {
-    /// Writes a set of the plane, with its domain and every column that the format has.
-    pub fn write_plane(&self, domain: &Domain, table: &PlaneTable) -> Result<()> {
+    /// Writes a set of the plane or of a cuboid, with its domain and every column that the format has.
+    pub fn write_points<const D: usize>(&self, domain: &Domain<D>, table: &PointTable<D>) -> Result<()> {
         match self.format {
-            Format::Ply => ply::write_plane(&self.output, domain, table),
-            Format::Npy => self.output.write(|writer| npy::write_plane(writer, table)),
-            Format::Csv => self.output.write(|writer| table::write_csv_plane(writer, table)),
-            Format::Xyz => self.output.write(|writer| table::write_xyz_plane(writer, table.points)),
+            Format::Ply => ply::write_points(&self.output, domain, table),
+            Format::Npy => self.output.write(|writer| npy::write_points(writer, table)),
+            Format::Csv => self.output.write(|writer| table::write_csv_points(writer, table)),
+            Format::Xyz => self.output.write(|writer| table::write_xyz_points(writer, table.points)),
             Format::Raw => self.output.write(|writer| write_floats(writer, table.points)),
         }
     }

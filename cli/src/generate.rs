@@ -1,12 +1,14 @@
-//! `azulejo plane`, `surface` and `relax`: the samplers of the library, from files and into files.
+//! `azulejo plane`, `surface`, `volume` and `relax`: the samplers of the library, from files and into files.
 
 mod around;
 mod attributes;
 mod plane;
 mod relax;
 mod surface;
+mod volume;
 
-use clap::Args;
+use azulejo::Order;
+use clap::{Args, ValueEnum};
 
 use crate::formats::Destination;
 use crate::output::Output;
@@ -15,6 +17,7 @@ use crate::text::{grouped, rounded};
 pub use plane::Plane;
 pub use relax::Relax;
 pub use surface::Surface;
+pub use volume::Volume;
 
 /// The arguments that all samplers have.
 #[derive(Args)]
@@ -24,6 +27,24 @@ pub struct Common {
     /// Another seed gives another set of the same kind.
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     pub seed: u64,
+}
+
+/// The order of samples.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Sequence {
+    /// The fastest order.
+    Any,
+    /// Coarse to fine: every prefix is blue noise.
+    Progressive,
+}
+
+impl From<Sequence> for Order {
+    fn from(sequence: Sequence) -> Self {
+        match sequence {
+            Sequence::Any => Self::Any,
+            Sequence::Progressive => Self::Progressive,
+        }
+    }
 }
 
 /// A number of samples, at least one, as on the command line: `1000000` or `1e6`.

@@ -9,7 +9,7 @@ use clap::{ArgAction, Args};
 
 use crate::domain::DomainArgs;
 use crate::formats::Input;
-use crate::formats::plane::PlaneTable;
+use crate::formats::points::PointTable;
 use crate::generate::{Common, report};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
@@ -44,7 +44,7 @@ pub struct Merge {
 
 impl Merge {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = self.common.destination.open_plane()?;
+        let output = self.common.destination.open_points()?;
         let loaded = self.load()?;
         let mut fixed = Vec::new();
         for path in &self.fixed {
@@ -61,7 +61,7 @@ impl Merge {
         let merge = |progress: &azulejo::Progress| kdrt::merge(context, &options, &pieces, &fixed, Some(progress));
         let (samples, done) = watched("merge", merge).map_err(|error| self.name_pieces(error))?;
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &PlaneTable::of(&samples.positions))?;
+        output.write_points(&domain, &PointTable::of(&samples.positions))?;
         let [kept, eliminated, inserted] = [done.kept, done.eliminated, done.inserted].map(grouped);
         let about =
             format!("radius {}, {kept} kept, {eliminated} eliminated, {inserted} inserted", rounded(self.radius, 4));

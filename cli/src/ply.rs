@@ -1,8 +1,8 @@
-//! PLY files: sets of the plane (`x y z`, where z is 0), samples of a surface (`x y z nx ny nz triangle u v`, and `radius`
+//! PLY files: sets of the plane (`x y z`, where z is 0) and of a cuboid (`x y z`), samples of a surface (`x y z nx ny nz triangle u v`, and `radius`
 //! where radii differ), both with `rank` in progressive order and `class` where there are several; meshes.
 //!
-//! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`: points alone do
-//! not tell the period of a torus. Files without that comment are read too.
+//! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`, one of a cuboid as
+//! `<x0> <y0> <z0> <x1> <y1> <z1>`: points alone do not tell the period of a torus. Files without that comment are read too.
 
 use std::fmt::Display;
 use std::io::{self, Write};
@@ -11,7 +11,7 @@ use azulejo::mesh::ply::Ply;
 use azulejo::{Boundary, Domain};
 
 use crate::formats::columns::{Column, write_position};
-use crate::formats::plane::PlaneTable;
+use crate::formats::points::PointTable;
 use crate::formats::set::{self, Columns, NAMES, PointSet};
 use crate::formats::surface::SurfaceTable;
 use crate::output::Output;
@@ -60,9 +60,9 @@ fn named_domain(comments: &[String]) -> Option<Domain> {
     })
 }
 
-/// Writes a set of the plane with its domain and all that is known of its points.
-pub fn write_plane(output: &Output, domain: &Domain, table: &PlaneTable) -> azulejo::Result<()> {
-    let ([x0, y0], [x1, y1]) = (domain.min, domain.max);
+/// Writes a set of the plane or of a cuboid with its domain and all that is known of its points.
+pub fn write_points<const D: usize>(output: &Output, domain: &Domain<D>, table: &PointTable<D>) -> azulejo::Result<()> {
+    let [min, max] = [domain.min, domain.max].map(|corner| corner.map(|x| x.to_string()).join(" "));
     let boundary = match domain.boundary {
         Boundary::Periodic => "periodic",
         Boundary::Bounded => "bounded",
@@ -70,7 +70,7 @@ pub fn write_plane(output: &Output, domain: &Domain, table: &PlaneTable) -> azul
     // Other programs read no vertices without z.
     const PROPERTIES: [&str; 3] = ["float x", "float y", "float z"];
     output.write(|writer| {
-        let comment = format!("comment domain {x0} {y0} {x1} {y1} {boundary}\n");
+        let comment = format!("comment domain {min} {max} {boundary}\n");
         write_header(writer, &comment, table.points.len(), &PROPERTIES, table.more_columns())?;
         table.write_binary::<3>(writer)
     })

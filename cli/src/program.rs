@@ -14,18 +14,19 @@ Examples:
   azulejo plane --count 65536 -o points.npy
   azulejo relax points.npy -o relaxed.csv
   azulejo surface bunny.obj --radius 0.002 -o samples.ply
+  azulejo volume --count 65536 --box 0 0 0 2 1 1 -o points.ply
   azulejo thin cloud.ply --count 100000 -o thinned.ply
   azulejo analyze relaxed.csv --plots plots
 
 Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
-Only PLY files record the domain of a set of the plane. The file - is the standard input or output, for points, meshes \
+Only PLY files record the domain of a set of the plane or of a box. The file - is the standard input or output, for points, meshes \
 and images: points are read and written as PLY there unless --input-format or --format says otherwise; the format of a \
 mesh is recognised by its contents.
 
 Exit codes: 0 done; 1 refused or failed, with the reason on the standard error; 2 wrong usage. Files are written whole or \
 not at all.";
 
-/// Blue-noise samples in the plane and on meshes: make them, relax them, measure them, draw them.
+/// Blue-noise samples in the plane, on meshes and in boxes: make them, relax them, measure them, draw them.
 #[derive(Parser)]
 #[command(name = "azulejo", version, arg_required_else_help = true, after_help = AFTERWARDS)]
 pub struct Cli {
@@ -42,6 +43,8 @@ enum Command {
     Plane(generate::Plane),
     /// Cover a triangle mesh with a maximal Poisson-disk set (PSP).
     Surface(generate::Surface),
+    /// Fill a box with a maximal Poisson-disk set.
+    Volume(generate::Volume),
     /// Relax a set of the plane, or the samples of a mesh, by distance constraints (DCR).
     Relax(generate::Relax),
     /// Merge sets that were sampled separately into one maximal set (KDRT).
@@ -68,6 +71,7 @@ fn run(cli: &Cli) -> Result<()> {
     match &cli.command {
         Command::Plane(plane) => plane.run(&context),
         Command::Surface(surface) => surface.run(&context),
+        Command::Volume(volume) => volume.run(&context),
         Command::Relax(relax) => relax.run(&context),
         Command::Merge(merge) => merge.run(&context),
         Command::Thin(thin) => thin.run(&context),

@@ -11,7 +11,7 @@ use std::time::Instant;
 use azulejo::{Context, Domain, Error, Given, Result};
 use clap::{Args, ValueEnum};
 
-use crate::formats::plane::PlaneTable;
+use crate::formats::points::PointTable;
 use crate::generate::{compared, count, report};
 use crate::output::Output;
 use crate::ply;
@@ -114,7 +114,9 @@ impl Stipple {
                 let width = self.size.unwrap_or(twice.clamp(*limits.start() as u32, *limits.end() as u32));
                 drawing.write_png(width, self.gamma, &output)?;
             }
-            Format::Ply => ply::write_plane(&output, domain, &PlaneTable { classes: inks, ..PlaneTable::of(centres) })?,
+            Format::Ply => {
+                ply::write_points(&output, domain, &PointTable { classes: inks, ..PointTable::of(centres) })?
+            }
         }
         report(&output, centres.len(), &format!("{said}dots of radius {}", rounded(*radius, 4)), seconds);
         Ok(())

@@ -477,3 +477,46 @@ fn a_file_of_another_format_is_said_to_be_one() {
         assert_eq!(said, format!("error: {name}: holds no mesh in a format that is read: OBJ, PLY, STL\n"));
     }
 }
+
+#[test]
+fn classes_follow_a_density_and_their_files_have_the_radii() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    let classes = ["surface", "square.ply", "--classes", "0.02,0.03", "--seed", "5"];
+    let set = [&classes[..], &["--density-from", "x"]].concat();
+    let said = workshop.succeed(&[&set[..], &["-o", "a.csv"]].concat());
+    assert!(
+        said.contains(" of radius 0.02 at density 1, ") && said.contains(" of radius 0.03 at density 1, "),
+        "{said}"
+    );
+    let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v,radius,class\n"));
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(1).map(|line| line.split(',').map(|word| word.parse().unwrap()).collect()).collect();
+    let own = [0.02, 0.03];
+    let mut pairs = 0;
+    for (i, a) in rows.iter().enumerate() {
+        // The density of the square is x: the radius is that at density 1 over its root.
+        let expected = own[a[10] as usize] / a[0].sqrt();
+        assert!((a[9] / expected - 1.0).abs() < 1e-5, "{a:?} of {expected}");
+        for b in rows[..i].iter().filter(|b| b[10] == a[10]) {
+            let distance = (a[0] - b[0]).hypot(a[1] - b[1]);
+            assert!(distance >= (a[9] + b[9]) / 2.0 * (1.0 - 1e-6), "{a:?} {b:?}");
+            pairs += 1;
+        }
+    }
+    let right = |class: f64| rows.iter().filter(|row| row[10] == class && row[0] > 0.5).count();
+    let left = |class: f64| rows.iter().filter(|row| row[10] == class && row[0] <= 0.5).count();
+    assert!(pairs > 10_000 && [0.0, 1.0].iter().all(|&class| right(class) > 2 * left(class)));
+    // A file with ranks, and refusals.
+    workshop.succeed(&[&set[..], &["--order", "progressive", "-o", "b.csv"]].concat());
+    let text = fs::read_to_string(workshop.path("b.csv")).unwrap();
+    assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v,radius,rank,class\n"));
+    let refuse =
+        |arguments: &[&str], code| workshop.refuse(&[&classes[..], arguments, &["-o", "c.ply"]].concat(), code);
+    assert!(refuse(&["--density-from", "none"], 1).contains("attribute none: element vertex has no such number"));
+    assert!(refuse(&["--density-from", "z"], 1).starts_with("error: square.ply: attribute z: "));
+    refuse(&["--density-from", "x", "--radius", "0.1"], 2);
+    let said = refuse(&["--density-from", "x", "--given", "a.csv", "--clearance", "-1"], 1);
+    assert!(said.starts_with("error: a.csv: given_clearances: "), "{said}");
+}

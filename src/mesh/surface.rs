@@ -240,6 +240,21 @@ impl Mesh {
         self.normals.is_some()
     }
 
+    /// The normals that the mesh carries, of its vertices or as [`Mesh::normal_indices`] says; empty if it carries none.
+    pub fn normals(&self) -> &[[f32; 3]] {
+        self.normals.as_ref().map_or(&[], |normals| &normals.vectors)
+    }
+
+    /// The numbers of the normals of each triangle's corners; `None` if it carries none, or those of its vertices.
+    pub fn normal_indices(&self) -> Option<&[[u32; 3]]> {
+        self.normals.as_ref()?.indices.as_deref()
+    }
+
+    /// The entries of the mask, one for each triangle; `None` without one.
+    pub fn mask(&self) -> Option<&[bool]> {
+        self.mask.as_ref().map(|mask| mask.as_slice())
+    }
+
     /// The mesh's normals at the corners of a triangle, interpolated to the point `(u, v)` of it in `f64` and
     /// normalised; `None` if the mesh carries none. Where they cancel, as zero and opposite normals do (less than a
     /// millionth of the longest of the three), it is the normal of the triangle.

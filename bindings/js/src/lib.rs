@@ -5,12 +5,17 @@
 
 mod analysis;
 mod answer;
+mod edit;
 mod memory;
 mod plane;
 mod surface;
+mod surface_varying;
 mod thin;
+mod volume;
 
-use azulejo::{Boundary, Domain, Order};
+use azulejo::{Boundary, Domain, Given, Order};
+
+use crate::memory::rows;
 
 /// The domain of five numbers: the corners of a rectangle, and whether it is bounded.
 pub(crate) fn domain(min_x: f64, min_y: f64, max_x: f64, max_y: f64, bounded: i32) -> Domain {
@@ -21,4 +26,23 @@ pub(crate) fn domain(min_x: f64, min_y: f64, max_x: f64, max_y: f64, bounded: i3
 /// The order that a flag selects.
 pub(crate) fn order(progressive: i32) -> Order {
     if progressive == 0 { Order::Any } else { Order::Progressive }
+}
+
+/// Given samples; without clearances each keeps the radius of the set.
+///
+/// # Safety
+/// As [`rows`] of both.
+pub(crate) unsafe fn given<'a, const AXES: usize>(
+    positions: *const [f32; AXES],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
+) -> Given<'a, AXES> {
+    // SAFETY: guaranteed by the caller.
+    unsafe { given_of(rows(positions, count), rows(clearances, clearance_count)) }
+}
+
+/// [`given`] of arrays.
+pub(crate) fn given_of<'a, const AXES: usize>(positions: &'a [[f32; AXES]], clearances: &'a [f64]) -> Given<'a, AXES> {
+    if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }

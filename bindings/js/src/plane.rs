@@ -5,8 +5,8 @@ use azulejo::kdrt::{self, CountOptions, Kind, Options, Plane, Progressive};
 use azulejo::{Boundary, Classes, Domain, Given};
 
 use crate::answer::{Answer, call};
-use crate::domain;
 use crate::memory::rows;
+use crate::{domain, given};
 
 /// The options of a set, as JavaScript lays them out.
 #[repr(C)]
@@ -33,10 +33,18 @@ impl PlaneOptions {
         (self.progressive != 0.0).then(|| Progressive::new().quotient(self.quotient).coarsest(self.coarsest))
     }
 
-    fn by_radius<'a>(&self, seed: u64, given: Given<'a, 2>) -> Options<'a> {
+    pub(crate) fn by_radius<'a>(&self, seed: u64, given: Given<'a, 2>) -> Options<'a> {
         let kind = match self.levels() {
             None => Kind::Plain(self.radius),
             Some(levels) => Kind::Progressive(self.radius, levels),
+        };
+        self.of(kind, seed).given(given)
+    }
+
+    fn by_classes<'a>(&self, classes: &'a Classes, seed: u64, given: Given<'a, 2>) -> Options<'a> {
+        let kind = match self.levels() {
+            None => Kind::Classes(classes),
+            Some(levels) => Kind::ProgressiveClasses(classes, levels),
         };
         self.of(kind, seed).given(given)
     }
@@ -49,21 +57,6 @@ impl PlaneOptions {
         let options = CountOptions::new(self.count as u64).domain(self.domain()).leaf_size(self.leaf_size);
         options.seed(seed).levels(self.levels())
     }
-}
-
-/// Given samples; without clearances each keeps the radius.
-///
-/// # Safety
-/// As [`rows`] of both.
-unsafe fn given<'a>(
-    positions: *const [f32; 2],
-    count: usize,
-    clearances: *const f64,
-    clearance_count: usize,
-) -> Given<'a, 2> {
-    // SAFETY: guaranteed by the caller.
-    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
-    if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) }
 }
 
 /// The samples, their ranks, the radius, and whether the set is maximal.
@@ -92,7 +85,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
     })
 }
 
-/// The samples of several classes, and the class of each.
+/// The samples of several classes, the class of each, and their ranks.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -100,52 +93,65 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
 pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     options: &PlaneOptions,
     seed: u64,
+    positions: *const [f32; 2],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
     radii: *const f64,
     radius_count: usize,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
-    let radii = unsafe { rows(radii, radius_count) };
+    let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
     call(|context| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
-        let set = kdrt::sample(context, &options.of(Kind::Classes(&classes), seed), None)?;
-        Ok(Answer::default().and(set.positions).and(set.classes))
+        let set = kdrt::sample(context, &options.by_classes(&classes, seed, given), None)?;
+        Ok(Answer::default().and(set.positions).and(set.classes).and(set.ranks))
     })
 }
 
-/// Keeps the state that all windows of a plane share; the answer is empty, the handle is in `out`.
+/// Keeps the state that all windows of a plane share, of several classes if there are radii of theirs; the answer is empty, the handle is in `out`.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_plane_create(
+pub unsafe extern "C" fn azulejo_kdrt_create(
     options: &PlaneOptions,
     seed: u64,
     positions: *const [f32; 2],
     count: usize,
     clearances: *const f64,
     clearance_count: usize,
+    radii: *const f64,
+    radius_count: usize,
     out: &mut Option<Box<Plane>>,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
-    let given = unsafe { given(positions, count, clearances, clearance_count) };
+    let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
     call(|context| {
-        *out = Some(Box::new(Plane::new(context, &options.by_radius(seed, given), None)?));
+        let plane = match radii {
+            [] => Plane::new(context, &options.by_radius(seed, given), None)?,
+            _ => {
+                let classes = Classes::new(radii.len().isqrt(), radii)?;
+                Plane::new(context, &options.by_classes(&classes, seed, given), None)?
+            }
+        };
+        *out = Some(Box::new(plane));
         Ok(Answer::default())
     })
 }
 
-/// The samples in a window, and their ranks.
+/// The samples in a window, their ranks and their classes.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_plane_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
+pub extern "C" fn azulejo_kdrt_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
     call(|_| {
         let set = plane.window([min_x, min_y], [max_x, max_y])?;
-        Ok(Answer::default().and(set.positions).and(set.ranks))
+        Ok(Answer::default().and(set.positions).and(set.ranks).and(set.classes))
     })
 }
 
 /// Frees a plane.
 #[unsafe(no_mangle)]
-pub extern "C" fn azulejo_plane_free(plane: Option<Box<Plane>>) {
+pub extern "C" fn azulejo_kdrt_free(plane: Option<Box<Plane>>) {
     drop(plane);
 }
 

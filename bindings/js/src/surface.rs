@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
+use azulejo::Points;
 use azulejo::dcr::surface;
 use azulejo::mesh::Mesh;
 use azulejo::psp::FlatOptions;
-use azulejo::{Given, Points};
 
 use crate::answer::{Answer, call};
 use crate::memory::rows;
-use crate::order;
+use crate::{given, order};
 
 /// The object behind JavaScript's `Mesh`.
 pub struct Handle(pub Arc<Mesh>);
@@ -70,9 +70,7 @@ pub unsafe extern "C" fn azulejo_psp_sample(
     clearance_count: usize,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
-    let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
-    let given =
-        if clearances.is_empty() { Given::at(positions) } else { Given::with_clearances(positions, clearances) };
+    let given = unsafe { given(positions, count, clearances, clearance_count) };
     call(|context| {
         let mut sampling = FlatOptions::new(options.radius)
             .count(options.count as usize)
@@ -114,8 +112,8 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     })
 }
 
-/// The answer with every column of some samples.
-fn answer(samples: Points<3>) -> Answer {
+/// The answer with every column that all samples have, and their ranks.
+pub(crate) fn answer(samples: Points<3>) -> Answer {
     let Points { positions, normals, triangles, barycentrics, ranks, .. } = samples;
     Answer::default().and(positions).and(normals).and(triangles).and(barycentrics).and(ranks)
 }

@@ -1,5 +1,7 @@
-// The package against naive oracles: all pairs, and points of a fine grid.
+// The package against naive oracles: all pairs, and points of a fine grid; and the sums of tests/sums.txt.
 import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
 
@@ -95,7 +97,7 @@ test("new samples keep clear of given ones", () => {
 
 test("windows of a plane are parts of it", () => {
     const options = { radius: 0.02, seed: 5 };
-    const plane = new azulejo.Plane(options);
+    const plane = new azulejo.KdrtPlane(options);
     const pairs = ({ positions }) => new Set(Array.from({ length: positions.length / 2 }, (_, i) =>
         `${positions[2 * i]} ${positions[2 * i + 1]}`));
     const all = pairs(azulejo.kdrtSample(options));
@@ -117,6 +119,277 @@ test("classes keep their distances", () => {
             assert.ok(Math.sqrt(x * x + y * y) >= radii[2 * classes[i] + classes[j]]);
         }
     }
+});
+
+test("classes around given samples and in progressive order have the bytes of the Rust calls", () => {
+    const order = { order: "progressive", seed: 3 };
+    const radii = [0.1, 0.07, 0.07, 0.05];
+    const { positions, classes, ranks } = azulejo.kdrtSampleClasses(order, radii);
+    for (const of of [0, 1]) {
+        const own = [...classes.keys()].filter((i) => classes[i] === of);
+        assert.ok(own.length > 50 && own.every((i, k) => k === 0 || ranks[i] <= ranks[own[k - 1]]));
+        for (const count of [2, 12, own.length]) {
+            const first = own.slice(0, count).flatMap((i) => [...positions.subarray(2 * i, 2 * i + 2)]);
+            const rank = Math.min(ranks[own[count - 1]], 1);
+            assert.ok(smallest(first, 2, wrapped) >= Math.min(rank, Math.SQRT1_2));
+        }
+    }
+    const givenPositions = [0.5, 0.5, 0.25, 0.25];
+    const around = azulejo.kdrtSampleClasses({ givenPositions, givenClearances: [0.2, 0, 0, 0.1] }, radii);
+    const nearest = (given, of) => Math.min(...Array.from(around.classes, (at, i) => {
+        const [x, y] = [0, 1].map((axis) => wrapped(around.positions[2 * i + axis] - givenPositions[2 * given + axis]));
+        return at === of ? Math.hypot(x, y) : Infinity;
+    }));
+    assert.ok(nearest(0, 0) >= 0.2 && nearest(0, 1) < 0.2 && nearest(1, 1) >= 0.1 && nearest(1, 0) < 0.1);
+    // Windows of a kept plane of classes are parts of it.
+    const plane = new azulejo.KdrtPlane(order, radii);
+    const window = plane.window([0.5, 0], [1, 1]);
+    const row = (set, i) => [set.classes[i], set.ranks[i], ...set.positions.subarray(2 * i, 2 * i + 2)].join(" ");
+    const whole = [...classes.keys()].filter((i) => positions[2 * i] >= 0.5).map((i) => row({ positions, classes, ranks }, i));
+    assert.deepEqual([...window.classes.keys()].map((i) => row(window, i)).sort(), whole.sort());
+    plane.free();
+    assert.equal(new azulejo.KdrtPlane({ radius: 0.1 }).window([0, 0], [1, 1]).classes, undefined);
+    const sums = azulejo.kdrtSampleClasses({ seed: 26, boundary: "bounded" }, classRadii([0.01, 0.01, 0.01, 0.01], 0.7));
+    assert.ok(hasSum("classes equal", sums.positions, sums.classes));
+    const given = {
+        givenPositions: Array.from({ length: 300 }, (_, i) => [((i * 619) % 307) / 300, ((i * 41) % 301) / 301]).flat(),
+        givenClearances: Array.from({ length: 600 }, (_, i) => 1e-3 * (i % 23) * (i % 2)),
+    };
+    const own = classRadii([0.015, 0.008], 0.9);
+    const cleared = azulejo.kdrtSampleClasses({ seed: 26, ...given }, own);
+    assert.ok(hasSum("classes around", cleared.positions, cleared.classes));
+    const equally = azulejo.kdrtSampleClasses({ seed: 26, givenPositions: given.givenPositions }, own);
+    assert.ok(hasSum("classes around equal", equally.positions, equally.classes));
+    const part = new azulejo.KdrtPlane({ seed: 26, ...given }, own).window([0.8, 0.3], [1, 0.6]);
+    assert.ok(hasSum("classes around, window", part.positions, part.classes));
+});
+
+// Wei's matrix for classes of these own radii.
+function classRadii(own, factor = 1) {
+    const smallestOwn = Math.min(...own);
+    const square = (x) => x * x;
+    const density = (radius) => own.filter((r) => r >= radius).reduce((sum, r) => sum + square(smallestOwn / r), 0);
+    return own.flatMap((a, i) => own.map((b, j) =>
+        i === j ? a : (factor * smallestOwn) / Math.sqrt(density(Math.min(a, b)))));
+}
+
+// A distance in space.
+function apart(positions, i, j) {
+    let squared = 0;
+    for (let axis = 0; axis < 3; axis++) squared += (positions[3 * i + axis] - positions[3 * j + axis]) ** 2;
+    return Math.sqrt(squared);
+}
+
+test("classes on meshes keep their distances, masks and ranks, and follow densities", () => {
+    const positions = [], indices = [];
+    // A square of 8 by 8 quads.
+    for (let i = 0; i < 81; i++) positions.push((i % 9) / 8, Math.floor(i / 9) / 8, 0);
+    for (let i = 0; i < 72; i++) if (i % 9 < 8) indices.push(i, i + 1, i + 10, i, i + 10, i + 9);
+    const mesh = new azulejo.Mesh(positions, indices);
+    const radii = [0.08, 0.06, 0.06, 0.05];
+    const masks = Array.from({ length: indices.length / 3 }, (_, t) => (t < 64 ? 3 : 1));
+    const check = (set, reach) => {
+        assert.ok(set.classes.length > 80);
+        for (let i = 0; i < set.classes.length; i++) {
+            for (let j = 0; j < i; j++) {
+                assert.ok(apart(set.positions, i, j) >= radii[2 * set.classes[i] + set.classes[j]] * reach(set, i, j));
+            }
+        }
+        // Class 1 keeps to the lower half; class 0 has no gap at a place whose local radius is 1.
+        assert.ok(set.classes.every((of, i) => of === 0 || set.positions[3 * i + 1] <= 0.5));
+        for (let place = 0; place < 400; place++) {
+            const [x, y] = [0.6 + (0.4 * (place % 20)) / 20, Math.floor(place / 20) / 20];
+            assert.ok([...set.classes.keys()].some((i) => {
+                const local = (1 + (set.radii ? set.radii[i] : 1)) / 2;
+                const distance = Math.hypot(set.positions[3 * i] - x, set.positions[3 * i + 1] - y);
+                return distance <= radii[set.classes[i]] * local + 1e-6;
+            }));
+        }
+    };
+    const set = azulejo.pspSampleClasses(mesh, { seed: 2, masks }, radii);
+    check(set, () => 1);
+    assert.equal(set.radii, undefined);
+    // Four times the density in the left half: half the radius.
+    const values = Array.from({ length: 81 }, (_, i) => (i % 9 < 4 ? 4 : 1));
+    const dense = azulejo.pspClassesWithDensity(mesh, { seed: 2, masks }, radii, { values, radius: 1 });
+    check(dense, ({ radii: local }, i, j) => (local[i] + local[j]) / 2);
+    const inLeft = (set) => set.classes.filter((_, i) => set.positions[3 * i] < 0.375).length;
+    assert.ok(inLeft(dense) > 2.5 * inLeft(set));
+    const ordered = azulejo.pspSampleClasses(mesh, { order: "progressive", quotient: 1.3 }, radii);
+    const own = [...ordered.classes.keys()].filter((i) => ordered.classes[i] === 1);
+    assert.ok(own.every((i, k) => k === 0 || ordered.ranks[i] <= ordered.ranks[own[k - 1]]));
+    const first = own.slice(0, 20).flatMap((i) => [...ordered.positions.subarray(3 * i, 3 * i + 3)]);
+    assert.ok(smallest(first, 3) >= ordered.ranks[own[19]]);
+    mesh.free();
+});
+
+// The closed torus of tests/sums/surface.rs: its positions, indices and normals.
+function sumsTorus(columns = 96, rows = 64) {
+    const positions = [], indices = [], normals = [];
+    for (let column = 0; column < columns; column++) {
+        for (let row = 0; row < rows; row++) {
+            const [hole, tube] = [(2 * Math.PI * column) / columns, (2 * Math.PI * row) / rows];
+            const [east, north, radius] = [Math.cos(hole), Math.sin(hole), 1 + 0.4 * Math.cos(tube)];
+            positions.push(radius * east, radius * north, 0.4 * Math.sin(tube));
+            normals.push(Math.cos(tube) * east, Math.cos(tube) * north, Math.sin(tube));
+            const vertex = (c, r) => (c % columns) * rows + (r % rows);
+            const [near, far] = [vertex(column, row), vertex(column + 1, row + 1)];
+            indices.push(near, vertex(column + 1, row), far, near, far, vertex(column, row + 1));
+        }
+    }
+    return [Float32Array.from(positions), indices, Float32Array.from(normals)];
+}
+
+// The normals of vertices at samples, as the library interpolates them.
+function interpolated({ triangles, barycentrics }, indices, normals) {
+    return Float32Array.from([...triangles].flatMap((triangle, i) => {
+        const [u, v] = barycentrics.subarray(2 * i, 2 * i + 2);
+        const weights = [1 - u - v, u, v];
+        const corner = (k, axis) => weights[k] * normals[3 * indices[3 * triangle + k] + axis];
+        const [x, y, z] = [0, 1, 2].map((axis) => corner(0, axis) + corner(1, axis) + corner(2, axis));
+        const shorter = 1 / Math.sqrt(x * x + y * y + z * z);
+        return [x * shorter, y * shorter, z * shorter];
+    }));
+}
+
+test("classes on meshes and sets that follow a density have the bytes of the Rust calls", () => {
+    const [positions, indices, normals] = sumsTorus();
+    const mesh = new azulejo.Mesh(positions, indices);
+    const masks = Array.from({ length: indices.length / 3 }, (_, i) => (i % 9 < 5 ? 7 : i % 8));
+    const isSum = (name, set) => hasSum(name, set.positions, set.normals, interpolated(set, indices, normals),
+        set.triangles, set.barycentrics, set.ranks ?? [], set.classes, set.radii ?? []);
+    assert.ok(isSum("classes", azulejo.pspSampleClasses(mesh, { masks, seed: 46 }, classRadii([0.05, 0.1, 0.05]))));
+    const values = Float32Array.from({ length: positions.length / 3 }, (_, i) =>
+        Math.max(Math.fround(positions[3 * i] + Math.fround(0.5 * positions[3 * i + 2])), 0));
+    const density = { values, count: 2000 };
+    const dense = azulejo.pspClassesWithDensity(mesh, { masks, seed: 48 }, classRadii([1, 2, 1]), density);
+    assert.ok(isSum("classes, density", dense));
+    assert.ok(!isSum("classes", dense));
+    mesh.free();
+});
+
+test("radii on meshes vary by vertex, by density and by image", () => {
+    const mesh = torus();
+    const x = (positions, i) => positions[3 * i];
+    const vertices = 48 * 24;
+    const angles = Array.from({ length: vertices }, (_, i) => Math.cos((2 * Math.PI * Math.floor(i / 24)) / 48));
+    const vertexRadii = angles.map((cosine) => (cosine > 0 ? 0.1 : 0.25));
+    const byRadii = azulejo.pspAdaptiveSample(mesh, { seed: 1 }, vertexRadii);
+    assert.ok(byRadii.radii.length > 200 && Math.min(...byRadii.radii) < 0.11 && Math.max(...byRadii.radii) > 0.24);
+    const byDensity = azulejo.pspAdaptiveWithDensity(
+        mesh, { order: "progressive" }, { values: angles.map((cosine) => (cosine > 0 ? 4 : 1)), count: 300 });
+    assert.equal(byDensity.triangles.length, 300);
+    assert.equal(Math.fround(byDensity.radius), byDensity.ranks[299]);
+    const right = byDensity.triangles.reduce((count, _, i) => count + (x(byDensity.positions, i) > 0), 0);
+    assert.ok(right > 210 && right < 265);
+    for (const { positions, radii } of [byRadii, byDensity]) {
+        for (let i = 0; i < radii.length; i++) {
+            for (let j = 0; j < i; j++) assert.ok(apart(positions, i, j) >= (radii[i] + radii[j]) / 2);
+        }
+    }
+    const values = new Float32Array(32).fill(1);
+    const ofVertices = Array(2 * vertices).fill(0.5);
+    const ofCorners = Array(2 * 3 * 2 * vertices).fill(0.5);
+    for (const texture of [ofVertices, ofCorners]) {
+        const image = azulejo.pspAdaptiveWithDensity(mesh, {}, { values, width: 8, height: 4, texture, radius: 0.2 });
+        assert.ok(image.radii.length > 100 && image.radii.every((radius) => Math.abs(radius - 0.2) < 1e-6));
+    }
+    mesh.free();
+});
+
+// The bytes of each sample by its id.
+function byId({ positions, ids }, axes) {
+    return new Map(Array.from(ids, (id, i) => [id, positions.subarray(axes * i, axes * (i + 1)).join(" ")]));
+}
+
+test("a stroke in the plane and its undo", () => {
+    const plane = new azulejo.Plane({ radius: 0.02, seed: 4 });
+    const before = plane.points();
+    assert.deepEqual(before.positions, azulejo.kdrtSample({ radius: 0.02, seed: 4 }).positions);
+    assert.deepEqual([...before.ids], [...before.ids.keys()]);
+    const stroke = { centre: [1, 0.5], radius: 0.1 };
+    const erased = plane.erase(stroke); // over the seam
+    const sides = erased.positions.filter((_, i) => i % 2 === 0);
+    assert.ok(sides.some((x) => x < 0.2) && sides.some((x) => x > 0.8));
+    const added = plane.refill(5);
+    const after = plane.points();
+    assert.ok(smallest(after.positions, 2, wrapped) >= 0.02);
+    assert.ok(covering(after.positions, wrapped) <= 0.02 + 1e-6);
+    const expected = byId(before, 2);
+    for (const id of erased.ids) assert.ok(expected.delete(id));
+    for (const [id, place] of byId(added, 2)) expected.set(id, place);
+    const sorted = (map) => [...map].sort(([a], [b]) => a - b);
+    assert.deepEqual(sorted(byId(after, 2)), sorted(expected));
+    assert.equal(plane.eraseIds(added.ids).ids.length, added.ids.length);
+    plane.restore(erased);
+    assert.deepEqual(sorted(byId(plane.points(), 2)), sorted(byId(before, 2)));
+    plane.erase(stroke);
+    assert.deepEqual(plane.refill(5n).positions, added.positions);
+    assert.equal(plane.refill().ids.length, 0);
+    plane.free();
+    assert.throws(() => plane.points(), /set: was freed/);
+});
+
+test("sets of the plane begin with positions and take given samples", () => {
+    const plane = new azulejo.Plane({ radius: 0.05, domainMax: [1, 2], boundary: "bounded" }, [0.25, 0.5, 0.75, 0.125]);
+    assert.deepEqual([...plane.points().positions], [0.25, 0.5, 0.75, 0.125]);
+    plane.refill();
+    const { first, erased } = plane.addGiven([0.5, 1], [0.3]);
+    assert.ok(first === 0 && erased.ids.length > 50);
+    plane.refill();
+    const distances = () => {
+        const { positions } = plane.points();
+        const distance = (_, i) => Math.hypot(positions[2 * i] - 0.5, positions[2 * i + 1] - 1);
+        return Array.from({ length: positions.length / 2 }, distance);
+    };
+    assert.ok(Math.min(...distances()) >= 0.3);
+    plane.removeGiven([0]);
+    assert.ok(plane.refill(1).ids.length > 50);
+    assert.ok(Math.min(...distances()) < 0.1);
+    const low = plane.erase({ min: [0, 0], max: [1, 0.5] });
+    assert.ok(low.ids.length > 100 && plane.points().positions.every((x, i) => i % 2 === 0 || x > 0.5));
+    const left = distances().length;
+    assert.ok(left > 100 && plane.erase().ids.length === left && distances().length === 0);
+});
+
+test("sets on meshes grow, are edited and undone", () => {
+    const mesh = torus();
+    const set = new azulejo.Psp(mesh, { radius: 0.15, seed: 2 });
+    assert.equal(set.points().triangles.length, 0);
+    assert.ok(set.advance(1) > 50);
+    assert.ok(set.fill() > 0 && set.fill() === 0);
+    const before = set.points();
+    const whole = azulejo.pspSample(mesh, { radius: 0.15, seed: 2, iterations: 1 });
+    assert.deepEqual(before.positions, whole.positions);
+    assert.deepEqual(before.barycentrics, whole.barycentrics);
+    assert.equal(before.ids.length, 0);
+    const stroke = { centre: [1.4, 0, 0], radius: 0.5, min: [-2, -2, 0], max: [2, 2, 2] };
+    const erased = set.erase(stroke);
+    const inside = ([x, y, z]) => Math.hypot(x - 1.4, y, z) <= 0.5 && z >= 0;
+    const row = (positions, i) => [...positions.subarray(3 * i, 3 * i + 3)];
+    const rows = (positions) => Array.from({ length: positions.length / 3 }, (_, i) => row(positions, i));
+    assert.deepEqual(rows(erased.positions), rows(before.positions).filter(inside));
+    assert.deepEqual([...erased.ids], rows(before.positions).flatMap((row, i) => (inside(row) ? [i] : [])));
+    assert.throws(() => set.advance(1), /iterations: of a set that has been edited/);
+    const added = set.refill(7);
+    assert.ok(added.ids.length > 5 && smallest(set.points().positions, 3) >= 0.15);
+    assert.ok(azulejo.meshMeasure(mesh, set.points().positions).coveringRadius <= 0.15 + 1e-5);
+    set.eraseIds(added.ids);
+    set.restore(erased);
+    const { positions, triangles, barycentrics, normals, ids } = set.points();
+    assert.deepEqual([...ids], [...ids.keys()]);
+    assert.deepEqual({ positions, triangles, barycentrics, normals, ids: before.ids }, before);
+    set.erase(stroke);
+    assert.deepEqual(set.refill(7).positions, added.positions);
+    const { first, erased: near } = set.addGiven([1.4, 0, 0], [0.4]);
+    assert.ok(first === 0 && near.ids.length > 3);
+    const count = set.points().ids.length;
+    assert.equal(count, ids.length - erased.ids.length + added.ids.length - near.ids.length);
+    assert.equal(count + set.fill(), set.points().ids.length);
+    mesh.free(); // the set keeps what it needs of it
+    assert.ok(rows(set.points().positions).every(([x, y, z]) => Math.hypot(x - 1.4, y, z) >= 0.4));
+    set.removeGiven([0]);
+    assert.ok(set.refill().ids.length > 0);
 });
 
 test("relaxation spreads a set and says so", () => {
@@ -152,6 +425,74 @@ function pspChecked(mesh, options) {
     assert.ok(smallest(samples.positions, 3) >= options.radius);
     return samples;
 }
+
+// The largest distance of a point of a grid of a box from the set.
+function coveringInSpace(positions, low, high, wrap, cells = 20) {
+    const along = (axis, i) => low[axis] + ((high[axis] - low[axis]) * (i + 0.5)) / cells;
+    let most = 0;
+    for (let place = 0; place < cells ** 3; place++) {
+        const at = [0, 1, 2].map((axis) => along(axis, Math.floor(place / cells ** axis) % cells));
+        let least = Infinity;
+        for (let i = 0; i < positions.length; i += 3) {
+            const squared = at.reduce((sum, x, axis) => sum + wrap(x - positions[i + axis]) ** 2, 0);
+            least = Math.min(least, squared);
+        }
+        most = Math.max(most, least);
+    }
+    return Math.sqrt(most);
+}
+
+// Whether arrays of a result have the sum of a line of tests/sums.txt.
+function hasSum(name, ...arrays) {
+    const sums = String(readFileSync(new URL("../../../tests/sums.txt", import.meta.url))).split("\n");
+    const line = sums.find((line) => line.slice(66).startsWith(`${name} (`));
+    const hash = createHash("sha256");
+    for (const { buffer, byteOffset, byteLength } of arrays.filter((array) => array.length > 0)) {
+        hash.update(new Uint8Array(buffer, byteOffset, byteLength));
+    }
+    return line.startsWith(hash.digest("hex"));
+}
+
+test("sets of boxes are conflict-free, maximal, exact in number and nested in progressive order", () => {
+    const unit = [[0, 0, 0], [1, 1, 1]];
+    const torus = azulejo.volumeSample({ radius: 0.15, seed: 3 });
+    assert.ok(torus.positions.length / 3 > 150);
+    assert.ok(smallest(torus.positions, 3, wrapped) >= 0.15);
+    assert.ok(coveringInSpace(torus.positions, ...unit, wrapped) <= 0.15 + 1e-6);
+    assert.equal(torus.coveringRadius, 0.15);
+    const slab = { domainMin: [-1, 2, 0], domainMax: [1, 2.5, 0.25], boundary: "bounded" };
+    const { positions } = azulejo.volumeSample({ radius: 0.1, ...slab });
+    assert.ok(positions.every((x, i) => x >= slab.domainMin[i % 3] && x < slab.domainMax[i % 3]));
+    assert.ok(smallest(positions, 3) >= 0.1);
+    assert.ok(coveringInSpace(positions, slab.domainMin, slab.domainMax, (d) => d) <= 0.1 + 1e-6);
+    const counted = azulejo.volumeSample({ count: 400, order: "progressive", quotient: 1.2 });
+    assert.equal(counted.ranks.length, 400);
+    for (const count of [100, 250, 400]) {
+        const [prefix, rank] = [counted.positions.subarray(0, 3 * count), counted.ranks[count - 1]];
+        assert.ok(smallest(prefix, 3, wrapped) >= rank);
+        assert.ok(coveringInSpace(prefix, ...unit, wrapped) <= 1.2 * rank + 1e-6);
+    }
+});
+
+test("sets of boxes keep clear of given samples, and have the bytes of the Rust calls", () => {
+    const givenPositions = Array.from({ length: 180 }, (_, i) => ((Math.floor(i / 3) * [31, 47, 83][i % 3]) % 256) / 256);
+    const givenClearances = Array.from({ length: 60 }, (_, i) => 0.3 / [1, 7, 60, 1000][i % 4]);
+    const given = { givenPositions, givenClearances };
+    const around = azulejo.volumeSample({ radius: 0.04, seed: 81, ...given });
+    for (let k = 0; k < 60; k++) {
+        for (let i = 0; i < around.positions.length; i += 3) {
+            const offsets = [0, 1, 2].map((axis) => wrapped(around.positions[i + axis] - givenPositions[3 * k + axis]));
+            assert.ok(Math.sqrt(offsets.reduce((sum, d) => sum + d * d, 0)) >= givenClearances[k]);
+        }
+    }
+    assert.ok(hasSum("volume torus, given", around.positions));
+    assert.ok(!hasSum("volume cube, given", around.positions));
+    const ordered = { radius: 0.04, seed: 81, boundary: "bounded", order: "progressive", quotient: 1.3 };
+    const { positions, ranks } = azulejo.volumeSample({ ...ordered, ...given });
+    assert.ok(hasSum("volume cube, progressive, given", positions, ranks));
+    const bar = { domainMin: [0.25, -7, 0], domainMax: [0.26, 7, 0.3], boundary: "bounded" };
+    assert.ok(hasSum("volume bar", azulejo.volumeSample({ radius: 0.05, seed: 75, ...bar }).positions));
+});
 
 test("thinning selects what no selected point before is nearer to", () => {
     const cloud = azulejo.kdrtSample({ radius: 0.02 }).positions;
@@ -192,6 +533,39 @@ test("errors name the argument, and leave the module usable", () => {
     throws(() => azulejo.dcrRelax([0.5, 0.5, 0.5]), "positions");
     throws(() => new azulejo.Mesh([0, 0, 0], [0, 1, 2]), "indices");
     throws(() => azulejo.pspSample({}, { radius: 1 }), "mesh");
+    throws(() => azulejo.kdrtSampleClasses({ radius: 0.1 }, [0.1]), "radius");
+    throws(() => azulejo.kdrtSampleClasses({ count: 9 }, [0.1]), "count");
+    throws(() => new azulejo.KdrtPlane({ radius: 0.1 }, [0.1]), "radius");
+    throws(() => azulejo.kdrtSampleClasses({}, [0.1, 0.2, 0.3]), "radii");
+    throws(() => new azulejo.Plane({ radius: 0.1 }, [0.5, 0.5, 0.5, 0.55]), "positions");
+    throws(() => new azulejo.Plane({ radius: 0.1, count: 4 }), "count");
+    const plane = new azulejo.Plane({ radius: 0.1 });
+    throws(() => plane.erase({ radius: 0.1 }), "centre");
+    throws(() => plane.erase({ centre: [0, 0] }), "radius");
+    throws(() => plane.erase({ centre: [0, 0, 0], radius: 1 }), "centre");
+    throws(() => plane.erase({ min: [1, 0], max: [0, 1] }), "region");
+    throws(() => plane.eraseIds([1e6]), "ids");
+    throws(() => plane.eraseIds([0.5]), "ids");
+    throws(() => plane.eraseIds([0, 0]), "ids");
+    throws(() => plane.restore({ positions: [0.5, 0.5], ids: [0] }), "points");
+    throws(() => plane.removeGiven([0]), "ids");
+    throws(() => plane.refill(-1), "seed");
+    const flat = new azulejo.Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
+    throws(() => new azulejo.Psp(flat, { radius: 0 }), "radius");
+    throws(() => azulejo.pspSampleClasses(flat, { masks: [1, 1] }, [0.1]), "maskCount");
+    throws(() => azulejo.pspClassesWithDensity(flat, {}, [1], { values: [1, 1, 1] }), "radius");
+    throws(() => azulejo.pspClassesWithDensity(flat, {}, [1], { values: [1, 1, 1], radius: 1, count: 1 }), "radius");
+    throws(() => azulejo.pspAdaptiveWithDensity(flat, {}, { radius: 1 }), "values");
+    throws(() => azulejo.pspAdaptiveWithDensity(flat, {}, { values: [1, 1], radius: 1 }), "density");
+    throws(() => azulejo.pspAdaptiveSample(flat, {}, [1, 1]), "vertexRadii");
+    throws(() => azulejo.pspAdaptiveSample(flat, { givenPositions: [0, 0, 0] }, [1, 1, 1]), "givenClearances");
+    throws(() => azulejo.volumeSample(), "radius");
+    throws(() => azulejo.volumeSample({ radius: 0.1, count: 5 }), "radius");
+    throws(() => azulejo.volumeSample({ radius: 0.1, domainMin: [0, 0] }), "domainMin");
+    throws(() => azulejo.volumeSample({ radius: 0.1, domainMin: [0, 0, 2] }), "domainMax");
+    throws(() => azulejo.volumeSample({ count: 9, givenPositions: [0, 0, 0] }), "givenClearances");
+    throws(() => azulejo.volumeSample({ radius: 0.1, givenPositions: [0, 0] }), "givenPositions");
+    throws(() => azulejo.volumeSample({ radius: 0.1, order: "progressive", quotient: 2 }), "quotient");
     throws(() => azulejo.thin([0, 0], 4, { radius: 1 }), "dimensions");
     throws(() => azulejo.thin([0, 0], 2), "radius");
     assert.ok(azulejo.kdrtSample({ radius: 0.1 }).positions.length > 0);

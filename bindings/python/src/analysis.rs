@@ -12,6 +12,7 @@ use crate::argument::{callable, maybe_pair, natural, real, whole};
 use crate::array::line;
 use crate::frame::{Frame, Positions, Rows};
 use crate::mesh::Mesh;
+use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
@@ -108,13 +109,14 @@ pub(crate) fn space_smallest_distance(
     Watch::new(py, threads, progress)?.run(|context, progress| spacing::smallest_distance_3d(context, points, progress))
 }
 
-/// The covering radius and the gaps of a set.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct CoverageReport {
-    /// The distance of the place that is farthest from all samples.
-    covering_radius: f64,
-    /// The number of gaps: 0 for a set that is maximal, up to the rounding of floats.
-    gaps: usize,
+report! {
+    /// The covering radius and the gaps of a set.
+    CoverageReport {
+        /// The distance of the place that is farthest from all samples.
+        covering_radius: f64,
+        /// The number of gaps: 0 for a set that is maximal, up to the rounding of floats.
+        gaps: usize,
+    }
 }
 
 impl From<Coverage> for CoverageReport {
@@ -197,39 +199,40 @@ pub(crate) fn mesh_uncovered_fraction(
     })
 }
 
-/// Spacing, order and triangles of points of the plane.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct PlaneReport {
-    /// The number of points.
-    count: usize,
-    /// The smallest distance of two points.
-    smallest_distance: f64,
-    /// The mean distance of a point to its nearest neighbour.
-    mean_distance: f64,
-    /// d_max, the distance of neighbours if as many points stood in hexagonal order.
-    hexagonal_distance: f64,
-    /// The smallest distance in units of d_max.
-    rho: f64,
-    /// The distance of the place that is farthest from all points.
-    covering_radius: f64,
-    /// The bond order psi6: 1 for a hexagonal lattice.
-    bond_order: f64,
-    /// The number of Delaunay triangles.
-    triangles: u64,
-    /// The share of them that is obtuse.
-    obtuse: f64,
-    /// The share of them whose smallest angle is below 30 degrees.
-    below_30_degrees: f64,
-    /// The share of all angles that is below 30 degrees.
-    angles_below_30_degrees: f64,
-    /// The mean length of their edges.
-    edge_mean: f64,
-    /// The standard deviation of the lengths over their mean.
-    edge_variation: f64,
-    /// The standard deviation of the areas over their mean.
-    area_variation: f64,
-    /// The share of edges whose length is more than 4 standard deviations from the mean.
-    beyond_4_sigma: f64,
+report! {
+    /// Spacing, order and triangles of points of the plane.
+    PlaneReport {
+        /// The number of points.
+        count: usize,
+        /// The smallest distance of two points.
+        smallest_distance: f64,
+        /// The mean distance of a point to its nearest neighbour.
+        mean_distance: f64,
+        /// d_max, the distance of neighbours if as many points stood in hexagonal order.
+        hexagonal_distance: f64,
+        /// The smallest distance in units of d_max.
+        rho: f64,
+        /// The distance of the place that is farthest from all points.
+        covering_radius: f64,
+        /// The bond order psi6: 1 for a hexagonal lattice.
+        bond_order: f64,
+        /// The number of Delaunay triangles.
+        triangles: u64,
+        /// The share of them that is obtuse.
+        obtuse: f64,
+        /// The share of them whose smallest angle is below 30 degrees.
+        below_30_degrees: f64,
+        /// The share of all angles that is below 30 degrees.
+        angles_below_30_degrees: f64,
+        /// The mean length of their edges.
+        edge_mean: f64,
+        /// The standard deviation of the lengths over their mean.
+        edge_variation: f64,
+        /// The standard deviation of the areas over their mean.
+        area_variation: f64,
+        /// The share of edges whose length is more than 4 standard deviations from the mean.
+        beyond_4_sigma: f64,
+    }
 }
 
 /// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.

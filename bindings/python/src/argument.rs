@@ -111,7 +111,7 @@ arguments! {
     maybe_whole: Option<i128> = named_or_none => iterations neighbours;
     pair: [f64; 2] = named => window_max window_min;
     maybe_pair: Option<[f64; 2]> = named_or_none => centre domain_max domain_min max min;
-    maybe_triple: Option<[f64; 3]> = named_or_none => centre direction max min;
+    maybe_triple: Option<[f64; 3]> = named_or_none => centre direction domain_max domain_min max min;
     callable: Option<Py<PyAny>> = named_or_none => progress;
     called: Py<PyAny> = named => visit;
 }

@@ -126,6 +126,20 @@ pub(crate) fn as_array<'py>(argument: &str, object: &Bound<'py, PyAny>) -> PyRes
     made("from_dlpack", object)
 }
 
+/// What `__array__` of an object returns that stands for an array.
+pub(crate) fn standing_for<'py>(
+    array: &Bound<'py, PyAny>,
+    dtype: Option<Bound<'py, PyAny>>,
+    copy: Option<bool>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = array.py();
+    let numpy = py.import("numpy")?;
+    match copy {
+        None => numpy.call_method1("asarray", (array, dtype)),
+        Some(copy) => numpy.call_method("array", (array, dtype), Some(&[("copy", copy)].into_py_dict(py)?)),
+    }
+}
+
 fn converted<'py, T: Entry>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
     let py = object.py();
     let array = as_array(argument, object)?;

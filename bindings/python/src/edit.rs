@@ -8,12 +8,12 @@ use pyo3::prelude::*;
 
 use crate::argument::{callable, maybe_pair, maybe_real, natural, real, whole};
 use crate::array::{Array, GivenArrays};
-use crate::error::{invalid, raised};
+use crate::error::invalid;
 use crate::frame::{Frame, Positions, Rows};
 use crate::growing::locked;
 use crate::plane::Request;
 use crate::points::Points;
-use crate::watch::Watch;
+use crate::watch::{Watch, unlocked};
 
 /// A set of the plane that is edited. One call at a time may change it; another one, from another thread or from
 /// progress, raises RuntimeError.
@@ -40,7 +40,7 @@ impl Plane {
     ) -> PyResult<T> {
         let mut set = self.set.try_write().map_err(|error| locked(&error))?;
         let set = &mut *set;
-        py.detach(|| step(set)).map_err(raised)
+        unlocked(py, || step(set))
     }
 
     /// Samples of an edit, with their ids.
@@ -48,6 +48,11 @@ impl Plane {
         let ids = std::mem::take(&mut samples.ids);
         Ok(Points::plane(py, samples, &self.frame)?.with_ids(py, ids))
     }
+}
+
+/// The number of samples of a set as text; that of one which another call changes is not known.
+pub(crate) fn counted(samples: Option<usize>) -> String {
+    samples.map_or_else(|| "in use".to_owned(), |samples| samples.to_string())
 }
 
 /// The region of a ball and a box, of which either may be missing; in the plane at height 0.
@@ -113,6 +118,14 @@ impl Plane {
             Some(positions) => EditableSet::of(&request, positions),
         })?;
         Ok(Self { set: RwLock::new(set), frame })
+    }
+
+    fn __len__(&self) -> PyResult<usize> {
+        Ok(self.set.try_read().map_err(|error| locked(&error))?.len())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<azulejo.Plane: {} in {}>", counted(self.__len__().ok()), self.frame.shown())
     }
 
     /// A copy of the set as it is, as Points, by rising ids.

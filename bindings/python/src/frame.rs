@@ -139,21 +139,50 @@ where
 /// The arguments `domain_min`, `domain_max` and `boundary`: a domain in the caller's frame, and the origin that the
 /// library's positions in it are relative to.
 #[derive(Clone, Copy)]
-pub(crate) struct Frame {
+pub(crate) struct Frame<const N: usize = 2> {
     /// In the caller's frame.
-    pub(crate) whole: Domain,
+    pub(crate) whole: Domain<N>,
     /// Relative to the origin.
-    pub(crate) domain: Domain,
-    pub(crate) origin: [f64; 2],
+    pub(crate) domain: Domain<N>,
+    pub(crate) origin: [f64; N],
 }
 
-impl Frame {
+impl<const N: usize> Frame<N> {
     /// The domain of samples that are to be made.
-    pub(crate) fn new(min: Option<[f64; 2]>, max: Option<[f64; 2]>, boundary: &str) -> PyResult<Self> {
+    pub(crate) fn new(min: Option<[f64; N]>, max: Option<[f64; N]>, boundary: &str) -> PyResult<Self> {
         let unit = Domain::unit(choice("boundary", boundary, &BOUNDARIES)?);
         Ok(Self::of(Domain { min: min.unwrap_or(unit.min), max: max.unwrap_or(unit.max), ..unit }, FAR))
     }
 
+    fn of(whole: Domain<N>, ratio: f64) -> Self {
+        let (domain, origin) = whole.centred(ratio);
+        Self { whole, domain, origin }
+    }
+
+    /// The domain of samples that are relative to an origin.
+    pub(crate) fn with_origin(min: [f64; N], max: [f64; N], boundary: &str, origin: [f64; N]) -> PyResult<Self> {
+        let whole = Domain { min, max, boundary: choice("boundary", boundary, &BOUNDARIES)? };
+        Ok(Self { whole, domain: whole.relative_to(origin), origin })
+    }
+
+    /// A place of the caller's.
+    pub(crate) fn local(&self, place: [f64; N]) -> [f64; N] {
+        relative(place, self.origin)
+    }
+
+    /// The domain as text.
+    pub(crate) fn shown(&self) -> String {
+        let Domain { min, max, .. } = self.whole;
+        format!("{min:?} to {max:?}, {}", self.boundary())
+    }
+
+    /// The name of the boundary.
+    pub(crate) fn boundary(&self) -> &'static str {
+        BOUNDARIES.iter().find(|(_, boundary)| *boundary == self.whole.boundary).expect("both have names").0
+    }
+}
+
+impl Frame {
     /// The domain of positions that there are: by default that of Points, if they have one.
     pub(crate) fn around(
         positions: &Positions,
@@ -162,7 +191,7 @@ impl Frame {
         boundary: Option<&str>,
     ) -> PyResult<Self> {
         let own = match positions {
-            Positions::Points(points) => points.get().frame,
+            Positions::Points(points) => points.get().place.plane(),
             _ => None,
         };
         let usual = own.map_or(Domain::unit(Boundary::Periodic), |frame| frame.whole);
@@ -178,21 +207,6 @@ impl Frame {
             }
             _ => Ok(Self::of(domain, if positions.are_rounded() { FAR_OF_DOUBLES } else { FAR })),
         }
-    }
-
-    fn of(whole: Domain, ratio: f64) -> Self {
-        let (domain, origin) = whole.centred(ratio);
-        Self { whole, domain, origin }
-    }
-
-    /// A place of the caller's.
-    pub(crate) fn local(&self, place: [f64; 2]) -> [f64; 2] {
-        relative(place, self.origin)
-    }
-
-    /// The name of the boundary.
-    pub(crate) fn boundary(&self) -> &'static str {
-        BOUNDARIES.iter().find(|(_, boundary)| *boundary == self.whole.boundary).expect("both have names").0
     }
 }
 

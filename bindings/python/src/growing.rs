@@ -9,14 +9,13 @@ use pyo3::prelude::*;
 
 use crate::argument::{callable, maybe_real, maybe_triple, natural, real, whole};
 use crate::array::{Array, GivenArrays};
-use crate::edit::region;
-use crate::error::raised;
+use crate::edit::{counted, region};
 use crate::frame::relative;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::psp::{PspReport, priority, projectors};
 use crate::taken;
-use crate::watch::Watch;
+use crate::watch::{Watch, unlocked};
 
 /// A set of samples on a mesh that grows, call by call: psp_sample makes one and fills it at once. One call at a time may
 /// change it; another one, from another thread or from progress, raises RuntimeError.
@@ -51,6 +50,14 @@ impl State {
         }
     }
 
+    fn len(&self) -> usize {
+        match self {
+            Self::Growing(psp) => psp.len(),
+            Self::Edited(set) => set.len(),
+            Self::Between => unreachable!("a panic between the two poisons the lock"),
+        }
+    }
+
     fn samples(&self) -> azulejo_core::Points<3> {
         match self {
             Self::Growing(psp) => psp.samples(),
@@ -79,7 +86,7 @@ impl Psp {
     ) -> PyResult<T> {
         let mut state = self.state.try_write().map_err(|error| locked(&error))?;
         let state = &mut *state;
-        py.detach(|| step(state.editable())).map_err(raised)
+        unlocked(py, || step(state.editable()))
     }
 
     /// Samples of an edit, with their ids.
@@ -122,7 +129,7 @@ impl Psp {
             .priority(self::priority(priority)?)
             .given(given.samples()?)
             .cosine(cosine.unwrap_or(-1.0));
-        let set = py.detach(|| psp::Psp::new(&mesh.shared, &request)).map_err(raised)?;
+        let set = unlocked(py, || psp::Psp::new(&mesh.shared, &request))?;
         Ok(Self { origin, state: RwLock::new(State::Growing(set)) })
     }
 
@@ -171,6 +178,14 @@ impl Psp {
                 set.refill(context, set.seed(), progress).map(|(_, report)| report)
             }
         })
+    }
+
+    fn __len__(&self) -> PyResult<usize> {
+        Ok(self.state.try_read().map_err(|error| locked(&error))?.len())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<azulejo.Psp: {} on a mesh>", counted(self.__len__().ok()))
     }
 
     /// A copy of the set as it is, as Points, in the order in which samples were accepted; of a set that has been edited

@@ -1,5 +1,6 @@
 //! The Python module `azulejo`. What users read is in the doc comments of its functions and classes, and in azulejo.pyi.
 
+mod adaptive;
 mod analysis;
 mod argument;
 mod array;
@@ -12,20 +13,24 @@ mod mesh;
 mod plane;
 mod points;
 mod psp;
+mod psp_classes;
 mod relax;
 mod remesh;
+mod report;
 mod spectrum;
 mod stream;
 mod taken;
 mod thin;
+mod volume;
 mod watch;
 
-/// Blue-noise sampling: maximal Poisson-disk sets in the plane and on triangle meshes, and their relaxation.
+/// Blue-noise sampling: maximal Poisson-disk sets in the plane, on triangle meshes and in space, and their relaxation.
 ///
 /// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample,
-/// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_adaptive_sample, psp_adaptive_with_density, Psp. Relaxation:
-/// dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Analysis:
-/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
+/// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_classes_with_density, psp_adaptive_sample,
+/// psp_adaptive_with_density, Psp. Cuboids: volume_sample. Relaxation: dcr_relax, dcr_relax_classes, dcr_relax_density,
+/// dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Analysis: plane_measure, plane_coverage, mesh_coverage,
+/// Spectrum, Differences and others. Plane and Psp are sets that are edited.
 ///
 /// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
 /// for any number of threads and on every machine.
@@ -39,6 +44,8 @@ mod watch;
 mod azulejo {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::adaptive::{psp_adaptive_sample, psp_adaptive_with_density};
     #[pymodule_export]
     use crate::analysis::{
         CoverageReport, PlaneReport, mesh_coverage, mesh_uncovered_fraction, plane_coverage, plane_covering_radius,
@@ -54,16 +61,18 @@ mod azulejo {
     #[pymodule_export]
     use crate::growing::Psp;
     #[pymodule_export]
-    use crate::mesh::Mesh;
+    use crate::mesh::{_mesh, Mesh};
     #[pymodule_export]
     use crate::plane::{
         KdrtMergeReport, KdrtPlane, KdrtReport, kdrt_merge, kdrt_sample, kdrt_sample_classes, kdrt_sample_window,
         maximal_sample,
     };
     #[pymodule_export]
-    use crate::points::Points;
+    use crate::points::{_points, Points};
     #[pymodule_export]
-    use crate::psp::{PspReport, psp_adaptive_sample, psp_adaptive_with_density, psp_sample, psp_sample_classes};
+    use crate::psp::{PspReport, psp_sample};
+    #[pymodule_export]
+    use crate::psp_classes::{psp_classes_with_density, psp_sample_classes};
     #[pymodule_export]
     use crate::relax::{DcrReport, dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_surface_relax};
     #[pymodule_export]
@@ -73,7 +82,9 @@ mod azulejo {
     #[pymodule_export]
     use crate::stream::kdrt_stream;
     #[pymodule_export]
-    use crate::thin::{Selection, thin};
+    use crate::thin::{_selection, Selection, thin};
+    #[pymodule_export]
+    use crate::volume::{VolumeReport, volume_sample};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -12,8 +12,10 @@ use crate::error::{invalid, raised};
 use crate::frame::{Positions, framed};
 use crate::points::Points;
 use crate::taken;
+use crate::watch::unlocked;
 
-/// A triangle mesh, as it comes: open, in parts, wound in any way. Immutable; several threads may use it at once.
+/// A triangle mesh, as it comes: open, in parts, wound in any way. Immutable; several threads may use it at once. It can be
+/// pickled.
 ///
 /// positions: of the vertices, shape (v, 3), any real numbers, of which float32 is kept, relative to an origin: 0 unless
 ///     the mesh lies so far from there that rounding would move vertices by more than a millionth of its size.
@@ -49,7 +51,7 @@ impl Mesh {
         let (positions, origin, _) = Positions::read("positions", positions)?.centred()?;
         let positions = positions.get()?.to_vec();
         let indices = taken::triangles(indices)?;
-        let made = py.detach(|| mesh::Mesh::new(positions, indices)).map_err(raised)?;
+        let made = unlocked(py, || mesh::Mesh::new(positions, indices))?;
         let mut mesh: Self = made.with_origin(origin).into();
         if let Some(normals) = normals {
             mesh = mesh.with_normals(normals, normal_indices)?;
@@ -65,7 +67,7 @@ impl Mesh {
     /// Reads an OBJ, PLY or STL file, with its normals. Raises OSError, or ValueError if the file is broken.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| mesh::Mesh::load(path)).map_err(raised)?.into())
+        Ok(unlocked(py, || mesh::Mesh::load(path))?.into())
     }
 
     /// The mesh with normals, as in Mesh(); shares everything else with this one.
@@ -80,14 +82,14 @@ impl Mesh {
     /// The mesh with a mask, as in Mesh(); shares everything else with this one.
     fn with_mask(&self, py: Python<'_>, mask: &Bound<'_, PyAny>) -> PyResult<Self> {
         let mask = Array::<bool>::read("mask", mask)?.line()?.to_vec();
-        Ok(py.detach(|| mesh::Mesh::clone(&self.shared).with_mask(mask)).map_err(raised)?.into())
+        Ok(unlocked(py, || mesh::Mesh::clone(&self.shared).with_mask(mask))?.into())
     }
 
     /// The mesh with its vertices moved: positions as in Mesh(). Its triangles and mask stay, its normals do not.
     fn deform(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (positions, origin, _) = Positions::read("positions", positions)?.centred()?;
         let positions = positions.get()?.to_vec();
-        Ok(py.detach(|| self.shared.deformed(positions)).map_err(raised)?.with_origin(origin).into())
+        Ok(unlocked(py, || self.shared.deformed(positions))?.with_origin(origin).into())
     }
 
     /// The points at places of the surface, such as those of samples on a mesh that was deformed since.
@@ -102,7 +104,7 @@ impl Mesh {
         let (triangles, barycentrics) =
             (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
         let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);
-        let samples = py.detach(|| self.shared.samples_at(triangles, barycentrics)).map_err(raised)?;
+        let samples = unlocked(py, || self.shared.samples_at(triangles, barycentrics))?;
         Points::surface(py, samples, self.shared.origin())
     }
 
@@ -150,13 +152,87 @@ impl Mesh {
         self.shared.has_normals()
     }
 
+    /// A copy of the normals, float32, shape (n, 3): of the vertices, or those that normal_indices names; None without.
+    #[getter]
+    fn normals(&self, py: Python<'_>) -> PyResult<Option<Py<PyArray2<f32>>>> {
+        self.has_normals().then(|| table(py, self.shared.normals().to_vec())).transpose()
+    }
+
+    /// A copy of the normals of the triangles' corners, uint32, shape (t, 3); None if they are those of the vertices.
+    #[getter]
+    fn normal_indices(&self, py: Python<'_>) -> PyResult<Option<Py<PyArray2<u32>>>> {
+        self.shared.normal_indices().map(|indices| table(py, indices.to_vec())).transpose()
+    }
+
+    /// A copy of the mask, bool, shape (t,); None without one.
+    #[getter]
+    fn mask(&self, py: Python<'_>) -> Option<Py<PyArray1<bool>>> {
+        self.shared.mask().map(|mask| line(py, mask.to_vec()))
+    }
+
     /// The area that the mask does not leave out, in square units of the mesh.
     #[getter]
     fn area(&self) -> f64 {
         self.shared.area()
     }
 
-    fn __repr__(&self) -> String {
-        format!("<azulejo.Mesh: {} vertices, {} triangles>", self.vertex_count(), self.triangle_count())
+    /// The mesh itself, which does not change.
+    fn __copy__(mesh: Py<Self>) -> Py<Self> {
+        mesh
     }
+
+    fn __deepcopy__(mesh: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        mesh
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, MeshParts)> {
+        let parts = (
+            self.local_positions(py)?,
+            self.origin(py),
+            self.indices(py)?,
+            self.normals(py)?,
+            self.normal_indices(py)?,
+            self.mask(py),
+        );
+        Ok((py.import("azulejo")?.getattr("_mesh")?, parts))
+    }
+
+    fn __repr__(&self) -> String {
+        let normals = if self.has_normals() { ", with normals" } else { "" };
+        let masked = match self.shared.mask() {
+            Some(mask) => format!(", {} of them masked", mask.iter().filter(|&&is_sampled| !is_sampled).count()),
+            None => String::new(),
+        };
+        format!(
+            "<azulejo.Mesh: {} vertices, {} triangles{masked}{normals}>",
+            self.vertex_count(),
+            self.triangle_count()
+        )
+    }
+}
+
+/// Positions, their origin, indices, normals and their indices, and a mask.
+type MeshParts = (
+    Py<PyArray2<f32>>,
+    Py<PyArray1<f64>>,
+    Py<PyArray2<u32>>,
+    Option<Py<PyArray2<f32>>>,
+    Option<Py<PyArray2<u32>>>,
+    Option<Py<PyArray1<bool>>>,
+);
+
+/// A Mesh as pickle takes it apart.
+#[pyfunction]
+#[pyo3(signature = (local_positions, origin, indices, normals, normal_indices, mask))]
+pub(crate) fn _mesh(
+    py: Python<'_>,
+    local_positions: &Bound<'_, PyAny>,
+    origin: [f64; 3],
+    indices: &Bound<'_, PyAny>,
+    normals: Option<&Bound<'_, PyAny>>,
+    normal_indices: Option<&Bound<'_, PyAny>>,
+    mask: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Mesh> {
+    let mesh = Mesh::new(py, local_positions, indices, normals, normal_indices, mask)?;
+    Ok(mesh::Mesh::clone(&mesh.shared).with_origin(origin).into())
 }

@@ -7,18 +7,20 @@ use pyo3::prelude::*;
 use crate::argument::{amount, callable, maybe_pair, maybe_real, natural, number, one_of, order, pair, real, whole};
 use crate::array::GivenArrays;
 use crate::classes::matrix;
-use crate::error::{invalid, raised};
+use crate::error::invalid;
 use crate::frame::{Frame, Positions, Rows};
 use crate::points::Points;
-use crate::watch::Watch;
+use crate::report::report;
+use crate::watch::{Watch, unlocked};
 
-/// The report of kdrt_sample.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct KdrtReport {
-    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found.
-    radius: f64,
-    /// True if no sample can be added. Sets of a count that is not reached exactly by a maximal set are not maximal.
-    is_maximal: bool,
+report! {
+    /// The report of kdrt_sample.
+    KdrtReport {
+        /// No two samples are closer: the radius that was asked for or, for a count, the one that was found.
+        radius: f64,
+        /// True if no sample can be added. Sets of a count that is not reached exactly by a maximal set are not maximal.
+        is_maximal: bool,
+    }
 }
 
 /// The arguments that all sets of the plane share.
@@ -262,13 +264,18 @@ impl KdrtPlane {
         Ok(Self { plane, frame, has_classes: classes.is_some() })
     }
 
+    fn __repr__(&self) -> String {
+        let classes = if self.has_classes { ", of several classes" } else { "" };
+        format!("<azulejo.KdrtPlane: {}{classes}>", self.frame.shown())
+    }
+
     /// The samples in a window, on the calling thread: the same as in the set of kdrt_sample, to the byte.
     ///
     /// window_min, window_max: the corners, two numbers each, inside the domain. Several threads may make windows at
     /// once.
     fn window(&self, py: Python<'_>, window_min: [f64; 2], window_max: [f64; 2]) -> PyResult<Points> {
         let (min, max) = (self.frame.local(window_min), self.frame.local(window_max));
-        let set = py.detach(|| self.plane.window(min, max)).map_err(raised)?;
+        let set = unlocked(py, || self.plane.window(min, max))?;
         if self.has_classes { Points::classified(py, set, &self.frame) } else { Points::plane(py, set, &self.frame) }
     }
 }
@@ -296,15 +303,16 @@ pub(crate) fn maximal_sample(
     Points::plane(py, samples, &frame)
 }
 
-/// The report of kdrt_merge.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct KdrtMergeReport {
-    /// Samples of the pieces that were kept.
-    kept: usize,
-    /// Samples of the pieces that were too close to others.
-    eliminated: usize,
-    /// Samples that were added in gaps.
-    inserted: usize,
+report! {
+    /// The report of kdrt_merge.
+    KdrtMergeReport {
+        /// Samples of the pieces that were kept.
+        kept: usize,
+        /// Samples of the pieces that were too close to others.
+        eliminated: usize,
+        /// Samples that were added in gaps.
+        inserted: usize,
+    }
 }
 
 /// Merges sets that were made separately, each maximal in its rectangle, into one that is maximal in the domain.

@@ -1,45 +1,43 @@
 //! Maximal sets on meshes.
 
-use azulejo_core::Order;
-use azulejo_core::psp::adaptive::{self, Density, Radius, Scale, Texture};
 use azulejo_core::psp::{self, DEFAULT_QUOTIENT, Priority, Projectors};
 use pyo3::prelude::*;
 
 use crate::argument::{
     amount, callable, choice, maybe_real, maybe_whole, natural, number, one_of, order, truth, whole,
 };
-use crate::array::{Array, GivenArrays, optional};
-use crate::classes::matrix;
-use crate::error::invalid;
+use crate::array::GivenArrays;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
-/// The report of a psp_ call.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct PspReport {
-    /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
-    /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
-    radius: f64,
-    /// Every place of the surface is so near to a sample; None where that is not known.
-    covering_radius: Option<f64>,
-    /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
-    rho: f64,
-    /// Samples of the set after the call.
-    samples: u64,
-    /// Samples that the call added.
-    accepted: u64,
-    /// Iterations of projection that were made.
-    iterations: u32,
-    /// Darts that were thrown at uncovered surface.
-    darts: u64,
-    /// The share of the area that was uncovered before the fill; None without one.
-    uncovered_before: Option<f64>,
-    /// The share that is uncovered after it.
-    uncovered_after: Option<f64>,
-    /// Wall time in seconds.
-    seconds: f64,
+report! {
+    /// The report of a psp_ call.
+    PspReport {
+        /// No two samples are closer: the radius that was asked for or, for a count, the one that was found. 0 where radii
+        /// vary; in progressive order then what they are multiplied by: 1, or for a density the radius at density 1.
+        radius: f64,
+        /// Every place of the surface is so near to a sample; None where that is not known.
+        covering_radius: Option<f64>,
+        /// The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area.
+        rho: f64,
+        /// Samples of the set after the call.
+        samples: u64,
+        /// Samples that the call added.
+        accepted: u64,
+        /// Iterations of projection that were made.
+        iterations: u32,
+        /// Darts that were thrown at uncovered surface.
+        darts: u64,
+        /// The share of the area that was uncovered before the fill; None without one.
+        uncovered_before: Option<f64>,
+        /// The share that is uncovered after it.
+        uncovered_after: Option<f64>,
+        /// Wall time in seconds.
+        seconds: f64,
+    }
 }
 
 impl From<psp::Report> for PspReport {
@@ -134,180 +132,4 @@ pub(crate) fn projectors(name: &str) -> PyResult<Projectors> {
 
 pub(crate) fn priority(name: &str) -> PyResult<Priority> {
     choice("priority", name, &[("squareness", Priority::Squareness), ("projector", Priority::Projector)])
-}
-
-/// A maximal set of several classes on a mesh: samples of the classes i and j are at least radii[i][j] apart, and for each
-/// class i every place is within radii[i][j] of some sample of some class j.
-///
-/// radii: symmetric, float64, shape (k, k) with k from 1 to 16; classes_radii() makes such matrices.
-/// masks: uint32, shape (t,): of each triangle the classes that it takes, bit i for class i; default: all.
-/// given_clearances: float64, shape (m, k). The others are those of psp_sample.
-///
-/// order: in progressive order each class is sorted coarse to fine, and the points have ranks.
-///
-/// Returns Points with classes and the report PspReport.
-#[pyfunction]
-#[pyo3(signature = (
-    mesh, radii, *, masks=None, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None,
-    cosine=None, threads=0, progress=None
-))]
-pub(crate) fn psp_sample_classes(
-    py: Python<'_>,
-    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
-    radii: &Bound<'_, PyAny>,
-    masks: Option<&Bound<'_, PyAny>>,
-    order: &str,
-    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
-    #[pyo3(from_py_with = whole::seed)] seed: i128,
-    given_positions: Option<&Bound<'_, PyAny>>,
-    given_clearances: Option<&Bound<'_, PyAny>>,
-    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
-    #[pyo3(from_py_with = whole::threads)] threads: i128,
-    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
-) -> PyResult<Points> {
-    let classes = matrix(radii)?;
-    let masks = optional("masks", masks)?;
-    let masks = masks.as_ref().map(Array::line).transpose()?;
-    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
-    let request = psp::ClassOptions::default()
-        .order(self::order(order, &[("quotient", quotient)])?)
-        .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
-        .seed(natural("seed", seed)?)
-        .given(given.samples()?)
-        .cosine(cosine.unwrap_or(-1.0));
-    let (samples, report) = Watch::new(py, threads, progress)?
-        .run(|context, progress| psp::sample_classes(context, &mesh.shared, &request, &classes, masks, progress))?;
-    Points::surface(py, samples, mesh.shared.origin())?.with_report(py, PspReport::from(report))
-}
-
-/// The arguments that both adaptive calls share.
-struct Adaptive<'py> {
-    order: Order,
-    quotient: Option<f64>,
-    seed: u64,
-    cosine: f64,
-    given: GivenArrays<'py, 3>,
-    watch: Watch<'py>,
-}
-
-impl Adaptive<'_> {
-    fn sample(self, py: Python<'_>, mesh: &Mesh, radius: Radius) -> PyResult<Points> {
-        let Self { order, quotient, seed, cosine, given, watch } = self;
-        let request = adaptive::Options::new(radius)
-            .order(order)
-            .quotient(quotient.unwrap_or(DEFAULT_QUOTIENT))
-            .cosine(cosine)
-            .seed(seed)
-            .given(given.samples()?);
-        let (set, report) =
-            watch.run(|context, progress| adaptive::sample(context, &mesh.shared, &request, progress))?;
-        Points::adaptive(py, set, mesh.shared.origin())?.with_report(py, PspReport::from(report))
-    }
-}
-
-/// A maximal set on a mesh whose radius varies: two samples are at least the mean of their radii apart.
-///
-/// vertex_radii: float32, shape (v,), above 0, in the units of the mesh: the radius at each vertex, interpolated on the
-///     triangles.
-/// order: "any", or "progressive": every prefix is well spread, and the points have ranks, what the radii are multiplied
-///     by for the points up to each.
-/// given_clearances: float64, shape (m,), needed where samples are given. The others are those of psp_sample.
-///
-/// Returns Points with radii and the report PspReport.
-#[pyfunction]
-#[pyo3(signature = (
-    mesh, vertex_radii, *, order="any", quotient=None, seed=0, given_positions=None, given_clearances=None, cosine=None,
-    threads=0, progress=None
-))]
-pub(crate) fn psp_adaptive_sample(
-    py: Python<'_>,
-    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
-    vertex_radii: &Bound<'_, PyAny>,
-    order: &str,
-    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
-    #[pyo3(from_py_with = whole::seed)] seed: i128,
-    given_positions: Option<&Bound<'_, PyAny>>,
-    given_clearances: Option<&Bound<'_, PyAny>>,
-    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
-    #[pyo3(from_py_with = whole::threads)] threads: i128,
-    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
-) -> PyResult<Points> {
-    let radii = Array::read("vertex_radii", vertex_radii)?;
-    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
-    let watch = Watch::new(py, threads, progress)?;
-    let order = self::order(order, &[("quotient", quotient)])?;
-    let request =
-        Adaptive { order, quotient, seed: natural("seed", seed)?, cosine: cosine.unwrap_or(-1.0), given, watch };
-    request.sample(py, &mesh, Radius::PerVertex(per_vertex("vertex_radii", &radii, &mesh)?))
-}
-
-/// A maximal set on a mesh whose density varies: the radius at a place follows from the density there.
-///
-/// density: in any unit, 0 or above, float32: shape (v,) for the vertices, interpolated on the triangles, or, with
-///     texture, an image of shape (height, width), whose first row lies along v = 0.
-/// radius: that of a density of 1, in the units of the mesh. Or:
-/// count: about how many samples the whole set has, exactly in progressive order.
-/// order: "any", or "progressive": every prefix is well spread, and the points have ranks, radii at density 1. Sets of
-///     smaller counts are prefixes, but for their radii.
-/// texture: texture coordinates, float32, shape (v, 2) for vertices or (t, 3, 2) for the corners of triangles.
-/// The others are those of psp_adaptive_sample.
-///
-/// Returns Points with radii and the report PspReport.
-#[pyfunction]
-#[pyo3(signature = (
-    mesh, density, *, radius=0.0, count=0.0, texture=None, order="any", quotient=None, seed=0, given_positions=None,
-    given_clearances=None, cosine=None, threads=0, progress=None
-))]
-pub(crate) fn psp_adaptive_with_density(
-    py: Python<'_>,
-    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
-    density: &Bound<'_, PyAny>,
-    #[pyo3(from_py_with = amount::radius)] radius: f64,
-    #[pyo3(from_py_with = amount::count)] count: f64,
-    texture: Option<&Bound<'_, PyAny>>,
-    order: &str,
-    #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
-    #[pyo3(from_py_with = whole::seed)] seed: i128,
-    given_positions: Option<&Bound<'_, PyAny>>,
-    given_clearances: Option<&Bound<'_, PyAny>>,
-    #[pyo3(from_py_with = maybe_real::cosine)] cosine: Option<f64>,
-    #[pyo3(from_py_with = whole::threads)] threads: i128,
-    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
-) -> PyResult<Points> {
-    let scale = match (radius == 0.0, count == 0.0) {
-        (false, true) => Scale::Radius(radius),
-        (true, false) => Scale::Count(count),
-        _ => return Err(invalid("radius", "one of radius and count is needed, and not both")),
-    };
-    let values = Array::read("density", density)?;
-    let texture = optional("texture", texture)?;
-    let density = match &texture {
-        None => Density::PerVertex(per_vertex("density", &values, &mesh)?),
-        Some(texture) => {
-            let (values, [width, height]) = values.image()?;
-            Density::Image { values, width, height, texture: places(texture)? }
-        }
-    };
-    let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
-    let watch = Watch::new(py, threads, progress)?;
-    let order = self::order(order, &[("quotient", quotient)])?;
-    let request =
-        Adaptive { order, quotient, seed: natural("seed", seed)?, cosine: cosine.unwrap_or(-1.0), given, watch };
-    request.sample(py, &mesh, Radius::Density { density, scale })
-}
-
-/// Values of the vertices.
-fn per_vertex<'a>(argument: &str, values: &'a Array<'_, f32>, mesh: &Mesh) -> PyResult<&'a [f32]> {
-    let (values, vertices) = (values.line()?, mesh.shared.positions().len());
-    if values.len() != vertices {
-        return Err(invalid(argument, format!("{} numbers for {vertices} vertices", values.len())));
-    }
-    Ok(values)
-}
-
-fn places<'a>(texture: &'a Array<'_, f32>) -> PyResult<Texture<'a>> {
-    match texture.shape() {
-        [_, 3, 2] => Ok(Texture::PerCorner(texture.entries().as_chunks().0.as_chunks().0)),
-        _ => Ok(Texture::PerVertex(texture.rows()?)),
-    }
 }

@@ -14,37 +14,40 @@ use crate::error::invalid;
 use crate::frame::Frame;
 use crate::mesh::Mesh;
 use crate::points::Points;
+use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
-/// The report of a relaxation.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct DcrReport {
-    /// Steps that were made.
-    iterations: u32,
-    /// Why it stopped: "converged", "steps" (all were made) or "cancelled" (progress returned False).
-    stopped: &'static str,
-    /// Half of the distance that points moved over the last span of 10 steps, root mean square, in units of d_max.
-    motion: f64,
-    /// The smallest distance of two points.
-    smallest_distance: f64,
-    /// That in units of d_max, the distance of neighbours in hexagonal order; with a density, of that at each place.
-    rho: f64,
-    /// In the plane: the covering radius in units of d_max.
-    relative_covering_radius: Option<f64>,
-    /// Of several classes: the rho of each, float64, shape (k,), in units of the d_max of its own number of points;
-    /// infinite for less than two points. The other figures are those of the union.
-    class_rho: Option<Py<PyArray1<f64>>>,
-    /// Of several classes: the covering radius of each, float64, shape (k,), in the same units; infinite for no point.
-    class_relative_covering_radius: Option<Py<PyArray1<f64>>>,
+report! {
+    /// The report of a relaxation.
+    DcrReport {
+        /// Steps that were made.
+        iterations: u32,
+        /// Why it stopped: "converged", "steps" (all were made) or "cancelled" (progress returned False).
+        stopped: String,
+        /// Half of the distance that points moved over the last span of 10 steps, root mean square, in units of d_max.
+        motion: f64,
+        /// The smallest distance of two points.
+        smallest_distance: f64,
+        /// That in units of d_max, the distance of neighbours in hexagonal order; with a density, of that at each place.
+        rho: f64,
+        /// In the plane: the covering radius in units of d_max.
+        relative_covering_radius: Option<f64>,
+        /// Of several classes: the rho of each, float64, shape (k,), in units of the d_max of its own number of points;
+        /// infinite for less than two points. The other figures are those of the union.
+        class_rho: Option<Py<PyArray1<f64>>>,
+        /// Of several classes: the covering radius of each, float64, shape (k,), in the same units; infinite for no point.
+        class_relative_covering_radius: Option<Py<PyArray1<f64>>>,
+    }
 }
 
-fn reason(stopped: Stopped) -> &'static str {
-    match stopped {
+fn reason(stopped: Stopped) -> String {
+    let name = match stopped {
         Stopped::Converged => "converged",
         Stopped::Steps => "steps",
         Stopped::Cancelled => "cancelled",
-    }
+    };
+    name.to_owned()
 }
 
 impl From<dcr::Report> for DcrReport {

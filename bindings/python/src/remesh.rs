@@ -6,37 +6,39 @@ use pyo3::prelude::*;
 use crate::argument::{callable, whole};
 use crate::array::Array;
 use crate::mesh::Mesh;
+use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
-/// The mesh that dcr_remesh returns: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0
-/// too.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct DcrRemeshReport {
-    /// Triangles of the mesh.
-    triangles: u64,
-    /// The number of triangles that are not in the Delaunay stars of all three corners.
-    disputed: u64,
-    /// Triangles of stars that are not in the mesh, because they do not go with others.
-    left_out: u64,
-    /// Edges with one triangle: the boundary.
-    boundary_edges: u64,
-    /// Edges with two triangles.
-    inner_edges: u64,
-    /// Edges with more than two: always 0.
-    non_manifold_edges: u64,
-    /// Samples whose triangles are not all connected by edges at the sample.
-    non_manifold_vertices: u64,
-    /// Samples without a triangle.
-    unused_vertices: u64,
-    /// Vertices - edges + triangles, without unused vertices: 2 for a sphere, 0 for a torus, 1 for a disk.
-    euler: i64,
-    /// The smallest angle of all triangles, in degrees.
-    smallest_angle: f64,
-    /// The largest angle of all triangles, in degrees.
-    largest_angle: f64,
-    /// The mean over all triangles of their smallest angle, in degrees.
-    mean_smallest_angle: f64,
+report! {
+    /// The mesh that dcr_remesh returns: a surface if non_manifold_vertices is 0, and a closed one if boundary_edges is 0
+    /// too.
+    DcrRemeshReport {
+        /// Triangles of the mesh.
+        triangles: u64,
+        /// The number of triangles that are not in the Delaunay stars of all three corners.
+        disputed: u64,
+        /// Triangles of stars that are not in the mesh, because they do not go with others.
+        left_out: u64,
+        /// Edges with one triangle: the boundary.
+        boundary_edges: u64,
+        /// Edges with two triangles.
+        inner_edges: u64,
+        /// Edges with more than two: always 0.
+        non_manifold_edges: u64,
+        /// Samples whose triangles are not all connected by edges at the sample.
+        non_manifold_vertices: u64,
+        /// Samples without a triangle.
+        unused_vertices: u64,
+        /// Vertices - edges + triangles, without unused vertices: 2 for a sphere, 0 for a torus, 1 for a disk.
+        euler: i64,
+        /// The smallest angle of all triangles, in degrees.
+        smallest_angle: f64,
+        /// The largest angle of all triangles, in degrees.
+        largest_angle: f64,
+        /// The mean over all triangles of their smallest angle, in degrees.
+        mean_smallest_angle: f64,
+    }
 }
 
 impl From<RemeshReport> for DcrRemeshReport {

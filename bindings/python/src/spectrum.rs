@@ -12,6 +12,7 @@ use crate::array::{Array, line};
 use crate::error::{invalid, raised, raised_as};
 use crate::frame::Positions;
 use crate::mesh::Mesh;
+use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
@@ -26,21 +27,22 @@ pub(crate) struct Spectrum {
     periodogram: Periodogram,
 }
 
-/// The figures of a spectrum.
-#[pyclass(frozen, get_all, module = "azulejo")]
-pub(crate) struct SpectrumReport {
-    /// The distance of neighbouring frequencies along both axes, in units of sqrt(count / area).
-    frequency_step: [f64; 2],
-    /// Below this frequency there is almost no power (Heck et al. 2013); None if the spectrum is too small to tell.
-    effective_nyquist: Option<f64>,
-    /// The variation of the power above it; None likewise.
-    oscillation: Option<f64>,
-    /// The variation of the power within annuli.
-    contrast: f64,
-    /// The highest power in the range over the mean of its annulus; 0 for none.
-    peak: f64,
-    /// Where that is, in units of sqrt(count / area).
-    peak_frequency: [f64; 2],
+report! {
+    /// The figures of a spectrum.
+    SpectrumReport {
+        /// The distance of neighbouring frequencies along both axes, in units of sqrt(count / area).
+        frequency_step: [f64; 2],
+        /// Below this frequency there is almost no power (Heck et al. 2013); None if the spectrum is too small to tell.
+        effective_nyquist: Option<f64>,
+        /// The variation of the power above it; None likewise.
+        oscillation: Option<f64>,
+        /// The variation of the power within annuli.
+        contrast: f64,
+        /// The highest power in the range over the mean of its annulus; 0 for none.
+        peak: f64,
+        /// Where that is, in units of sqrt(count / area).
+        peak_frequency: [f64; 2],
+    }
 }
 
 #[pymethods]

@@ -6,9 +6,10 @@ use pyo3::prelude::*;
 use azulejo_core::mesh;
 
 use crate::array::{Array, as_array};
-use crate::error::{invalid, raised};
+use crate::error::invalid;
 use crate::frame::Positions;
 use crate::mesh::Mesh;
+use crate::watch::unlocked;
 
 /// Where packages keep vertices and faces, by the attributes of their meshes: trimesh and libigl's wrappers, Open3D,
 /// PyVista.
@@ -41,7 +42,7 @@ pub(crate) fn mesh(object: &Bound<'_, PyAny>) -> PyResult<Mesh> {
 fn made(vertices: &Bound<'_, PyAny>, faces: &Bound<'_, PyAny>) -> PyResult<Mesh> {
     let (positions, origin, _) = Positions::read("positions", vertices)?.centred()?;
     let (positions, indices) = (positions.get()?.to_vec(), triangles(faces)?);
-    let made = vertices.py().detach(|| mesh::Mesh::new(positions, indices)).map_err(raised)?;
+    let made = unlocked(vertices.py(), || mesh::Mesh::new(positions, indices))?;
     Ok(made.with_origin(origin).into())
 }
 

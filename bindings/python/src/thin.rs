@@ -2,16 +2,17 @@
 
 use azulejo_core::Centred;
 use azulejo_core::thin::{self as core, Options};
-use numpy::PyArray1;
+use numpy::{PyArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyIterator;
 
 use crate::argument::{amount, callable, natural, number, order, whole};
-use crate::array::{line, line_if_any};
+use crate::array::{line, line_if_any, standing_for};
 use crate::error::invalid;
 use crate::frame::Positions;
 use crate::watch::Watch;
 
-/// Points that thin() selected; len() is their number n.
+/// Points that thin() selected; len() is their number n, and cloud[selection] are the points. It can be copied and pickled.
 #[pyclass(frozen, module = "azulejo")]
 pub(crate) struct Selection {
     /// Their indices in the cloud, uint32, shape (n,).
@@ -30,9 +31,44 @@ impl Selection {
         self.count
     }
 
-    fn __repr__(&self) -> String {
-        format!("<azulejo.Selection: {}>", self.count)
+    #[pyo3(signature = (dtype=None, copy=None))]
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        standing_for(self.indices.bind(py), dtype, copy)
     }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self.indices.bind(py).try_iter()
+    }
+
+    /// indices[key].
+    fn __getitem__<'py>(&self, key: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.indices.bind(key.py()).as_any().get_item(key)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, SelectionParts)> {
+        let parts = (self.indices.clone_ref(py), self.ranks.as_ref().map(|ranks| ranks.clone_ref(py)));
+        Ok((py.import("azulejo")?.getattr("_selection")?, parts))
+    }
+
+    fn __repr__(&self) -> String {
+        let ranks = if self.ranks.is_some() { ", with ranks" } else { "" };
+        format!("<azulejo.Selection: {}{ranks}>", self.count)
+    }
+}
+
+/// Indices and ranks.
+type SelectionParts = (Py<PyArray1<u32>>, Option<Py<PyArray1<f32>>>);
+
+/// A Selection as pickle takes it apart.
+#[pyfunction]
+#[pyo3(signature = (indices, ranks))]
+pub(crate) fn _selection(py: Python<'_>, indices: Py<PyArray1<u32>>, ranks: Option<Py<PyArray1<f32>>>) -> Selection {
+    Selection { count: indices.bind(py).len(), indices, ranks }
 }
 
 /// Selects points of a cloud that are far from each other and near to all the others.

@@ -23,6 +23,10 @@ impl<'py> Watch<'py> {
         Ok(Self { py, context: context(natural("threads", threads)?)?, progress })
     }
 
+    pub(crate) fn py(&self) -> Python<'py> {
+        self.py
+    }
+
     /// Makes a call of the library without the interpreter's lock.
     pub(crate) fn run<T: Send>(
         self,
@@ -38,6 +42,11 @@ impl<'py> Watch<'py> {
         failed.map_or(Ok(()), Err)?;
         result.map_err(raised)
     }
+}
+
+/// Makes a short call of the library without the interpreter's lock: one that needs no threads and is not interrupted.
+pub(crate) fn unlocked<T: Send>(py: Python<'_>, call: impl FnOnce() -> Result<T, Error> + Send) -> PyResult<T> {
+    py.detach(call).map_err(raised)
 }
 
 /// The interpreter's lock is taken no more often than this: another thread may take 5 ms to hand it over.

@@ -83,6 +83,53 @@ def test_classes_keep_their_distances(mesh):
         assert smallest_distance(ordered.positions[ordered.classes == i][:12]) >= ranks[11]
 
 
+def test_classes_follow_a_density(mesh):
+    radii = azulejo.classes_radii([0.2, 0.3], 0.9)
+    density = 1.0 + 3.0 * (mesh.positions[:, 0] > 0)
+    masks = np.where(mesh.positions[mesh.indices][:, :, 2].mean(axis=1) > 0, 3, 1)
+    points = azulejo.psp_classes_with_density(mesh, radii, density, radius=1, masks=masks, seed=3)
+    assert points.radii.max() == pytest.approx(1) and points.radii.min() == pytest.approx(0.5)
+    keep = radii[points.classes[:, None], points.classes] * (points.radii[:, None] + points.radii) / 2
+    between = distances(points.positions, points.positions)
+    np.fill_diagonal(between, np.inf)
+    assert (between >= keep).all()
+    assert set(points.classes) == {0, 1} and (masks[points.triangles[points.classes == 1]] == 3).all()
+    # No sample of class 0 fits anywhere: of a place on a triangle of one density the local radius is known.
+    places = random_places(mesh)
+    places = places[np.abs(places[:, 0]) > 0.2]
+    local = np.where(places[:, 0] > 0, 0.5, 1.0)
+    reach = radii[0, points.classes] * (local[:, None] + points.radii) / 2
+    assert (distances(places, points.positions) <= reach + 1e-6).any(axis=1).all()
+    dense = points.positions[:, 0] > 0
+    alone = azulejo.psp_sample_classes(mesh, radii, masks=masks, seed=3)
+    for of in (0, 1):
+        assert (dense & (points.classes == of)).sum() > 2.5 * ((alone.positions[:, 0] > 0) & (alone.classes == of)).sum()
+    ordered = azulejo.psp_classes_with_density(mesh, radii, density, radius=1, order="progressive", quotient=1.3)
+    for of in (0, 1):
+        own = ordered.classes == of
+        assert (np.diff(ordered.ranks[own]) <= 0).all()
+        first, rank = ordered.positions[own][:12], ordered.ranks[own][11] / radii[of, of]
+        local = ordered.radii[own][:12]
+        between = distances(first, first) + np.diag(np.full(12, np.inf))
+        assert (between >= radii[of, of] * rank * (local[:, None] + local) / 2).all()
+
+
+def test_classes_with_a_density_are_refused_by_name(mesh):
+    radii = azulejo.classes_radii([0.2, 0.3])
+    density = np.ones(len(mesh.positions))
+    for more, name in [
+        (dict(), "radius"),
+        (dict(radius=1, count=100), "radius"),
+        (dict(radius=1, given_positions=[[1.4, 0, 0]]), "given_clearances"),
+        (dict(radius=1, masks=[1]), "mask_count"),
+        (dict(radius=1, quotient=1.1), "quotient"),
+    ]:
+        with pytest.raises(ValueError, match=f"^{name}"):
+            azulejo.psp_classes_with_density(mesh, radii, density, **more)
+    with pytest.raises(ValueError, match="^density"):
+        azulejo.psp_classes_with_density(mesh, radii, density[1:], radius=1)
+
+
 def test_radii_vary(mesh):
     radii = np.where(mesh.positions[:, 0] > 0, 0.1, 0.3)
     points = azulejo.psp_adaptive_sample(mesh, radii)

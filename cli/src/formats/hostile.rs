@@ -2,7 +2,7 @@
 //! refused with a message of one line, without a panic, and the numbers of a header are not trusted.
 
 use super::columns::write_floats;
-use super::plane::PlaneTable;
+use super::points::PointTable;
 use super::set::PointSet;
 use super::{npy, raw, table};
 use crate::ply;
@@ -13,7 +13,7 @@ type Parse = fn(&[u8]) -> Result<PointSet, String>;
 fn good_files() -> Vec<(Parse, Vec<u8>)> {
     let (plane, space) = ([[0.5f32, -1.25], [3.0, 4e-3]], [[0.5f32, -1.25, 7.0], [3.0, 4e-3, 1e9]]);
     let mut array = Vec::new();
-    npy::write_plane(&mut array, &PlaneTable::of(&plane)).unwrap();
+    npy::write_points(&mut array, &PointTable::of(&plane)).unwrap();
     let fields =
         "[('x', '<f4'), ('y', '<f4'), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,))]";
     let header = format!("{:<246}", format!("{{'descr': {fields}, 'fortran_order': False, 'shape': (1,), }}"));

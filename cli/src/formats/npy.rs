@@ -1,7 +1,7 @@
-//! Arrays of NumPy. Sets of the plane are arrays of two floats to a row. Samples of a surface are structured arrays,
+//! Arrays of NumPy. Sets of the plane are arrays of two floats to a row, those of a cuboid of three. Samples of a surface are structured arrays,
 //! with the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), `radius`
-//! where radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane in
-//! progressive order or of several classes are structured arrays of `x`, `y`, and `rank` or `class`.
+//! where radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane or of a cuboid in
+//! progressive order or of several classes are structured arrays of `x`, `y`, in a cuboid `z`, and `rank` or `class`.
 //!
 //! Input may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
 //! order, of which 2, 3 or 6 are x, y, z, nx, ny and nz, and otherwise the first three; and structured arrays with the
@@ -15,7 +15,7 @@ use std::io::{self, Write};
 use serde_json::Value;
 
 use super::columns::Column as FileColumn;
-use super::plane::PlaneTable;
+use super::points::PointTable;
 use super::set::{self, Columns, NAMES, PointSet};
 use super::shortened;
 use super::surface::SurfaceTable;
@@ -207,15 +207,16 @@ impl Number {
     }
 }
 
-/// Writes a set of the plane as an array of two columns or, with ranks or classes, as a structured one.
-pub fn write_plane(writer: &mut impl Write, table: &PlaneTable) -> io::Result<()> {
+/// Writes points as an array of a column for each coordinate or, with ranks or classes, as a structured one.
+pub fn write_points<const D: usize>(writer: &mut impl Write, table: &PointTable<D>) -> io::Result<()> {
     let (more, count) = (fields(table.more_columns()), table.points.len());
     if more.is_empty() {
-        write_header(writer, "'<f4'", &format!("({count}, 2)"))?;
+        write_header(writer, "'<f4'", &format!("({count}, {D})"))?;
     } else {
-        write_header(writer, &format!("[('x', '<f4'), ('y', '<f4'){more}]"), &format!("({count},)"))?;
+        let coordinates: Vec<_> = NAMES[..D].iter().map(|name| format!("('{name}', '<f4')")).collect();
+        write_header(writer, &format!("[{}{more}]", coordinates.join(", ")), &format!("({count},)"))?;
     }
-    table.write_binary::<2>(writer)
+    table.write_binary::<D>(writer)
 }
 
 /// Writes samples of a surface as a structured array.

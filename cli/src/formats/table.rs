@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::columns::{CLASS, Column, Number};
-use super::plane::PlaneTable;
+use super::points::PointTable;
 use super::set::{Columns, NAMES, PointSet};
 use super::shortened;
 use super::surface::SurfaceTable;
@@ -135,10 +135,10 @@ impl Layout {
     }
 }
 
-pub fn write_csv_plane(writer: &mut impl Write, table: &PlaneTable) -> io::Result<()> {
-    write_csv_header(writer, "x,y", table.more_columns())?;
-    table.points.iter().enumerate().try_for_each(|(i, [x, y])| {
-        write!(writer, "{x},{y}")?;
+pub fn write_csv_points<const D: usize>(writer: &mut impl Write, table: &PointTable<D>) -> io::Result<()> {
+    write_csv_header(writer, &NAMES[..D].join(","), table.more_columns())?;
+    table.points.iter().enumerate().try_for_each(|(i, point)| {
+        write!(writer, "{}", point.map(|x| x.to_string()).join(","))?;
         end_csv_row(writer, table.more_numbers(i))
     })
 }
@@ -164,8 +164,10 @@ fn end_csv_row(writer: &mut impl Write, mut more: impl Iterator<Item = Number>) 
     writeln!(writer)
 }
 
-pub fn write_xyz_plane(writer: &mut impl Write, points: &[[f32; 2]]) -> io::Result<()> {
-    points.iter().try_for_each(|[x, y]| writeln!(writer, "{x} {y} 0"))
+/// Points of the plane have the z 0.
+pub fn write_xyz_points<const D: usize>(writer: &mut impl Write, points: &[[f32; D]]) -> io::Result<()> {
+    let z = if D == 2 { " 0" } else { "" };
+    points.iter().try_for_each(|point| writeln!(writer, "{}{z}", point.map(|x| x.to_string()).join(" ")))
 }
 
 pub fn write_xyz_surface(writer: &mut impl Write, table: &SurfaceTable) -> io::Result<()> {
@@ -229,8 +231,8 @@ mod tests {
     fn what_is_written_is_read_again_bit_by_bit() {
         let expected = [[0.1f32, 1.0 / 3.0], [1e-30, -7e20]];
         let (mut csv, mut xyz) = (Vec::new(), Vec::new());
-        write_csv_plane(&mut csv, &PlaneTable::of(&expected)).unwrap();
-        write_xyz_plane(&mut xyz, &expected).unwrap();
+        write_csv_points(&mut csv, &PointTable::of(&expected)).unwrap();
+        write_xyz_points(&mut xyz, &expected).unwrap();
         for text in [csv, xyz] {
             assert_eq!(points(&String::from_utf8(text).unwrap()), expected);
         }

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use azulejo::kdrt::{self, CountOptions, Kind, Progressive};
 use azulejo::{Boundary, Classes, Context, Domain, Points, Progress, Result};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::around::Around;
-use super::{Common, count, report};
+use super::{Common, Sequence, count, report};
 use crate::domain::DomainArgs;
-use crate::formats::plane::PlaneTable;
+use crate::formats::points::PointTable;
 use crate::formats::{Input, blame};
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
@@ -83,14 +83,6 @@ pub struct Plane {
     leaf_size: f64,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Sequence {
-    /// By position.
-    Any,
-    /// Coarse to fine: every prefix is blue noise.
-    Progressive,
-}
-
 /// A set, its domain, and the text of the report.
 type Made = (Points<2>, Domain, String);
 
@@ -99,14 +91,14 @@ impl Plane {
         if let Some(own) = &self.density.classes {
             return self.of_classes(&Classes::of_radii(own, self.class_factor)?, context);
         }
-        let output = self.common.destination.open_plane()?;
+        let output = self.common.destination.open_points()?;
         let start = Instant::now();
         let (made, domain, about) = match self.density.count {
             Some(count) => self.exactly(count, context)?,
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_plane(&domain, &PlaneTable { ranks: &made.ranks, ..PlaneTable::of(&made.positions) })?;
+        output.write_points(&domain, &PointTable { ranks: &made.ranks, ..PointTable::of(&made.positions) })?;
         report(&output.output, made.len(), &about, seconds);
         Ok(())
     }
@@ -185,7 +177,7 @@ impl Plane {
         };
         let seconds = start.elapsed().as_secs_f64();
         output
-            .write_plane(&domain, &PlaneTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes })?;
+            .write_points(&domain, &PointTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes })?;
         report(&output.output, set.len(), &shares(classes, &set), seconds);
         Ok(())
     }

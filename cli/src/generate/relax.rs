@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 
 use super::{Common, report};
 use crate::domain::DomainArgs;
-use crate::formats::plane::PlaneTable;
+use crate::formats::points::PointTable;
 use crate::formats::set::ClassColumn;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, blame};
@@ -72,7 +72,7 @@ impl Relax {
         let classes = self.classes(&set.classes)?;
         let output = match classes {
             Some(_) => self.common.destination.open_classes()?,
-            None => self.common.destination.open_plane()?,
+            None => self.common.destination.open_points()?,
         };
         let domain = self.domain.of(&set).ok_or_else(|| {
             self.refused("does not name its domain, and does not fill the unit square: give --domain")
@@ -96,8 +96,8 @@ impl Relax {
         };
         let (relaxed, done, each) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        let table = PlaneTable { classes: classes.unwrap_or_default(), ..PlaneTable::of(&relaxed) };
-        output.write_plane(&domain, &table)?;
+        let table = PointTable { classes: classes.unwrap_or_default(), ..PointTable::of(&relaxed) };
+        output.write_points(&domain, &table)?;
         let of_classes: Vec<_> = each.iter().map(|class| rounded(class.rho, 3)).collect();
         let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" / ")) };
         let about = about(done.iterations, done.smallest_distance) + &of_classes;

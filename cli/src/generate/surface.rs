@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density as MeshDensity, Radius, Scale};
-use azulejo::{Classes, Context, Error, Given, Order, Points, Progress, Result, psp};
+use azulejo::{Classes, Context, Error, Given, Points, Progress, Result, psp};
 use clap::{Args, ValueEnum};
 
 use super::around::Around;
 use super::attributes::{MeshFile, mask_of_text};
-use super::{Common, count, report};
+use super::{Common, Sequence, count, report};
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{blame, read_given};
 use crate::progress::watched;
@@ -29,7 +29,8 @@ struct Density {
     #[arg(long, value_name = "N", value_parser = count::<usize>, conflicts_with_all = ["iterations", "no_fill"])]
     count: Option<usize>,
     /// Several classes of samples with their own radii, such as 1,0.5,0.25. The distance of samples of two classes
-    /// follows from their radii (Wei 2010). The output has the class of each sample, from 0 on, except in XYZ.
+    /// follows from their radii (Wei 2010). The output has the class of each sample, from 0 on, except in XYZ. With
+    /// --density-from they are the radii at density 1.
     #[arg(long, value_name = "R,..", value_delimiter = ',', allow_negative_numbers = true, conflicts_with_all = NOT_OF_CLASSES)]
     classes: Option<Vec<f64>>,
     /// The name of a vertex attribute of a PLY mesh that holds the radius there, for adaptive sampling. The distance of
@@ -45,7 +46,7 @@ const OF_ONE_RADIUS: [&str; 2] = ["radius_from", "density_from"];
 const OF_ONE_CLASS: [&str; 3] = ["radius", "count", "radius_from"];
 
 /// The arguments that sets of several classes refuse.
-const NOT_OF_CLASSES: [&str; 6] = ["density_from", "iterations", "no_fill", "projectors", "priority", "engine"];
+const NOT_OF_CLASSES: [&str; 5] = ["iterations", "no_fill", "projectors", "priority", "engine"];
 
 #[derive(Args)]
 pub struct Surface {
@@ -63,8 +64,9 @@ pub struct Surface {
     #[arg(long, value_name = "ATTRIBUTE,..", value_delimiter = ',', conflicts_with_all = OF_ONE_CLASS)]
     class_masks: Option<Vec<String>>,
     /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or more; where it is 0
-    /// there are no samples. --radius is the radius at density 1; --count the number of samples, which is exact in
-    /// progressive order and approximate otherwise. The output has the radius of each sample, except in XYZ.
+    /// there are no samples. --radius is the radius at density 1, and so are those of --classes; --count the number of
+    /// samples, which is exact in progressive order and approximate otherwise. The output has the radius of each sample,
+    /// except in XYZ.
     #[arg(long, value_name = "ATTRIBUTE", conflicts_with = "radius_from")]
     density_from: Option<String>,
     /// The name of a face attribute of a PLY mesh. Faces where it is 0 are not sampled.
@@ -115,23 +117,6 @@ pub struct Surface {
     /// The engine that finds the points of the mesh to which patterns are projected.
     #[arg(long, value_enum, default_value = "auto", conflicts_with_all = OF_ONE_RADIUS)]
     engine: Engine,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Sequence {
-    /// The fastest order.
-    Any,
-    /// Coarse to fine: every prefix is blue noise.
-    Progressive,
-}
-
-impl From<Sequence> for Order {
-    fn from(sequence: Sequence) -> Self {
-        match sequence {
-            Sequence::Any => Self::Any,
-            Sequence::Progressive => Self::Progressive,
-        }
-    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -216,6 +201,7 @@ impl Surface {
         let origin = mesh.origin();
         let around = self.around(origin)?;
         let made = match (&self.density.radius_from, &self.density_from) {
+            _ if self.density.classes.is_some() => self.of_classes(context, mesh, &file, &around),
             (Some(attribute), _) => self.adaptive(context, &mesh, &file, (attribute, None), around.given()),
             (None, Some(attribute)) => {
                 let scale = match (self.density.radius, self.density.count) {
@@ -224,10 +210,7 @@ impl Surface {
                 };
                 self.adaptive(context, &mesh, &file, (attribute, Some(scale)), around.given())
             }
-            (None, None) => match &self.density.classes {
-                Some(own) => self.of_classes(context, mesh, &file, own, &around),
-                None => self.uniform(context, mesh, around.given()),
-            },
+            (None, None) => self.uniform(context, mesh, around.given()),
         };
         let Made { samples, radii, about, seconds } = made.map_err(|error| match &self.given {
             Some(path) => blame(path, error),
@@ -302,33 +285,39 @@ impl Surface {
         Ok(Some((0..masks.first().map_or(0, Vec::len)).map(of_triangle).collect()))
     }
 
-    /// Samples of several classes, by their own radii, on the triangles of their masks.
-    fn of_classes(
-        &self,
-        context: &Context,
-        mesh: Mesh,
-        file: &MeshFile,
-        own: &[f64],
-        around: &Around<3>,
-    ) -> Result<Made> {
+    /// Samples of several classes, by their own radii, on the triangles of their masks; if there is a density, by multiples
+    /// of these radii that follow from it.
+    fn of_classes(&self, context: &Context, mesh: Mesh, file: &MeshFile, around: &Around<3>) -> Result<Made> {
+        let own = self.density.classes.as_deref().unwrap_or_default();
         let classes = Classes::of_radii(own, self.class_factor)?;
         let masks = self.class_masks(file, own.len())?;
         let around = around.of_classes(own.len());
+        let attribute = self.density_from.as_deref();
+        let density = attribute.map(|attribute| vertex_values(file, attribute)).transpose()?;
+        let unit = density
+            .as_ref()
+            .map(|values| Radius::Density { density: MeshDensity::PerVertex(values), scale: Scale::Radius(1.0) });
         let options = psp::ClassOptions::default()
             .order(self.order.into())
             .quotient(self.quotient.unwrap_or(psp::DEFAULT_QUOTIENT))
             .seed(self.common.seed)
             .given(around.given())
-            .cosine(self.cosine);
+            .cosine(self.cosine)
+            .unit(unit);
         let mesh = Arc::new(mesh);
         let sample = |progress: &Progress| {
             psp::sample_classes(context, &mesh, &options, &classes, masks.as_deref(), Some(progress))
         };
-        let (samples, done) = watched("surface", sample)?;
+        let made = watched("surface", sample);
+        let (mut samples, done) = made.map_err(|error| blame_attribute(file, attribute, error))?;
+        let radius = |(&class, unit): (&u32, f64)| own[class as usize] * unit;
+        let radii =
+            attribute.map(|_| samples.classes.iter().zip(std::mem::take(&mut samples.radii)).map(radius).collect());
         let count = |class: usize| samples.classes.iter().filter(|&&other| other as usize == class).count();
-        let each = |class: usize| format!("{} of radius {}", count(class), rounded(own[class], 4));
+        let at_density = if attribute.is_some() { " at density 1" } else { "" };
+        let each = |class: usize| format!("{} of radius {}{at_density}", count(class), rounded(own[class], 4));
         let about = (0..own.len()).map(each).collect::<Vec<_>>().join(", ");
-        Ok(Made { samples, radii: None, about, seconds: done.seconds })
+        Ok(Made { samples, radii, about, seconds: done.seconds })
     }
 
     /// Samples whose radii are interpolated from an attribute of the vertices or, with a scale, follow from the density
@@ -341,7 +330,7 @@ impl Surface {
         (attribute, scale): (&str, Option<Scale>),
         given: Given<3>,
     ) -> Result<Made> {
-        let values: Vec<_> = file.vertex_attribute(attribute)?.into_iter().map(|value| value as f32).collect();
+        let values = vertex_values(file, attribute)?;
         let radius = match scale {
             None => Radius::PerVertex(&values),
             Some(scale) => Radius::Density { density: MeshDensity::PerVertex(&values), scale },
@@ -353,10 +342,8 @@ impl Surface {
             .cosine(self.cosine)
             .given(given);
         let sample = |progress: &Progress| adaptive::sample(context, mesh, &options, Some(progress));
-        let (mut made, done) = watched("surface", sample).map_err(|error| match error {
-            Error::InvalidArgument { argument: "vertex_radii" | "density", reason } => file.error(attribute, &reason),
-            other => other,
-        })?;
+        let made = watched("surface", sample);
+        let (mut made, done) = made.map_err(|error| blame_attribute(file, Some(attribute), error))?;
         let ends = |choose: fn(f64, f64) -> f64| made.radii.iter().copied().reduce(choose).unwrap_or(f64::NAN);
         let [least, largest] = [ends(f64::min), ends(f64::max)].map(|radius| rounded(radius, 4));
         let unit = match (scale, done.radius) {
@@ -366,5 +353,20 @@ impl Surface {
         let about = format!("radii {least} to {largest}{unit}");
         let radii = std::mem::take(&mut made.radii);
         Ok(Made { samples: made, radii: Some(radii), about, seconds: done.seconds })
+    }
+}
+
+/// A number for each vertex.
+fn vertex_values(file: &MeshFile, attribute: &str) -> Result<Vec<f32>> {
+    Ok(file.vertex_attribute(attribute)?.into_iter().map(|value| value as f32).collect())
+}
+
+/// An error about the numbers of the vertices, with the attribute that they are.
+fn blame_attribute(file: &MeshFile, attribute: Option<&str>, error: Error) -> Error {
+    match (attribute, error) {
+        (Some(attribute), Error::InvalidArgument { argument: "vertex_radii" | "density", reason }) => {
+            file.error(attribute, &reason)
+        }
+        (_, other) => other,
     }
 }

@@ -177,9 +177,6 @@ fn expected(header: &str, name: &str, row: &Row) -> Vec<f64> {
     if matches!(text.as_str(), "required" | "none") {
         return vec![0.0];
     }
-    if name == "engine" && !azulejo_core::trace::HAS_EMBREE {
-        return constant(header, "AZULEJO_ENGINE_RASTERISER").into_iter().collect();
-    }
     let numbers: Option<Vec<f64>> = text.split(' ').map(|number| number.parse().ok()).collect();
     let words = text.replace(' ', "_").to_uppercase();
     numbers.unwrap_or_else(|| {
@@ -314,7 +311,7 @@ fn javascript_has_these_options_and_defaults() {
                     "required" => plain.contains("required"),
                     "none" => plain.contains("by default the radius") || line.contains("null"),
                     "1" if line.contains("boolean") => plain.contains("default true"),
-                    "0 0" | "1 1" => plain.contains(&format!("default {}", row.default)),
+                    "0 0" | "1 1" | "0 0 0" | "1 1 1" => plain.contains(&format!("default {}", row.default)),
                     _ => {
                         plain.contains(&format!("default {default}"))
                             || plain.contains(&format!("{default} the default"))

@@ -33,13 +33,13 @@ fn every_type_and_order_gives_the_same_points() {
         assert_eq!(points(&file(&dictionary(element, fortran, "(2, 2)"), &body)), expected, "{element}");
     }
     let mut written = Vec::new();
-    write_plane(&mut written, &PlaneTable::of(&expected)).unwrap();
+    write_points(&mut written, &PointTable::of(&expected)).unwrap();
     assert_eq!(points(&written), expected);
     let mut classed = Vec::new();
-    write_plane(&mut classed, &PlaneTable { classes: &[7, 300], ..PlaneTable::of(&expected) }).unwrap();
+    write_points(&mut classed, &PointTable { classes: &[7, 300], ..PointTable::of(&expected) }).unwrap();
     assert!(points(&classed) == expected && classed.ends_with(&[44, 1, 0, 0]));
     let mut ranked = Vec::new();
-    write_plane(&mut ranked, &PlaneTable { ranks: &[1.5, 0.25], ..PlaneTable::of(&expected) }).unwrap();
+    write_points(&mut ranked, &PointTable { ranks: &[1.5, 0.25], ..PointTable::of(&expected) }).unwrap();
     assert!(points(&ranked) == expected && ranked.ends_with(&0.25f32.to_le_bytes()));
     // The header of these bytes is what numpy.save writes.
     let start = b"\x93NUMPY\x01\x00v\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }  ";

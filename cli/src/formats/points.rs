@@ -1,23 +1,23 @@
-//! Sets of the plane as a table: what files of them hold, and in which order.
+//! Sets of the plane or of a cuboid as a table: what files of them hold, and in which order.
 
 use std::io::{self, Write};
 
 use super::columns::{CLASS, Column, Number, RANK, write_floats};
 
-/// Points of the plane with their ranks and classes.
+/// Points of `D` coordinates with their ranks and classes.
 #[derive(Clone, Copy, Default)]
-pub struct PlaneTable<'a> {
-    pub points: &'a [[f32; 2]],
+pub struct PointTable<'a, const D: usize = 2> {
+    pub points: &'a [[f32; D]],
     /// The rank of each point, in progressive order; otherwise empty.
     pub ranks: &'a [f32],
     /// The class of each point, where there are several; otherwise empty.
     pub classes: &'a [u32],
 }
 
-impl<'a> PlaneTable<'a> {
+impl<'a, const D: usize> PointTable<'a, D> {
     /// Points of which no more is known.
-    pub fn of(points: &'a [[f32; 2]]) -> Self {
-        Self { points, ..Self::default() }
+    pub fn of(points: &'a [[f32; D]]) -> Self {
+        Self { points, ranks: &[], classes: &[] }
     }
 
     /// The columns that only some sets have.
@@ -33,12 +33,12 @@ impl<'a> PlaneTable<'a> {
         [rank, class].into_iter().flatten()
     }
 
-    /// Writes all rows as binary numbers, little-endian and without gaps: x y, zeros for the other axes, and rank and class
-    /// if there are any.
+    /// Writes all rows as binary numbers, little-endian and without gaps: the coordinates, zeros for other axes, and rank
+    /// and class if there are any.
     pub fn write_binary<const AXES: usize>(&self, writer: &mut impl Write) -> io::Result<()> {
         (0..self.points.len()).try_for_each(|i| {
             let mut place = [0.0; AXES];
-            place[..2].copy_from_slice(&self.points[i]);
+            place[..D].copy_from_slice(&self.points[i]);
             write_floats(writer, &[place])?;
             self.more_numbers(i).try_for_each(|number| writer.write_all(&number.bytes()))
         })

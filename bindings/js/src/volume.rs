@@ -1,0 +1,50 @@
+//! Sets of cuboids.
+
+use azulejo::volume::{Amount, Options, sample};
+use azulejo::{Boundary, Domain};
+
+use crate::answer::{Answer, call};
+use crate::{given, order};
+
+/// The options of a set, as JavaScript lays them out.
+#[repr(C)]
+pub struct VolumeOptions {
+    radius: f64,
+    count: f64,
+    min: [f64; 3],
+    max: [f64; 3],
+    bounded: f64,
+    progressive: f64,
+    quotient: f64,
+}
+
+/// The samples, their ranks, the radius and a bound of the covering radius.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_sample(
+    options: &VolumeOptions,
+    seed: u64,
+    positions: *const [f32; 3],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let given = unsafe { given(positions, count, clearances, clearance_count) };
+    let &VolumeOptions { radius, count, min, max, bounded, progressive, quotient } = options;
+    call(|context| {
+        let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
+        let amount = if count > 0.0 { Amount::Count(count as usize) } else { Amount::Radius(radius) };
+        let options = Options::of(amount)
+            .domain(Domain { min, max, boundary })
+            .seed(seed)
+            .order(order((progressive != 0.0).into()))
+            .quotient(quotient)
+            .given(given);
+        let (samples, report) = sample(context, &options, None)?;
+        let report = vec![report.radius, report.covering_radius];
+        Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))
+    })
+}

@@ -1,0 +1,139 @@
+"""Sets of cuboids, against every pair and many places."""
+
+import hashlib
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import azulejo
+from naive import distances, farthest, smallest_distance
+
+SUMS = Path(__file__).parents[3] / "tests" / "sums.txt"
+SLAB = dict(domain_min=(-1.0, 2.0, 0.0), domain_max=(1.0, 2.5, 0.25), boundary="bounded")
+
+
+def places(low, high, steps=24):
+    axes = [np.linspace(a, b, steps, endpoint=False) for a, b in zip(low, high)]
+    return np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
+
+
+def given_samples():
+    """Those of tests/sums/volume.rs."""
+    given = np.array([[(i * step % 256) / 256 for step in (31, 47, 83)] for i in range(60)], np.float32)
+    return given, np.array([0.3 / (1.0, 7.0, 60.0, 1000.0)[i % 4] for i in range(60)])
+
+
+def test_a_set_is_conflict_free_and_maximal():
+    for seed in range(3):
+        points = azulejo.volume_sample(0.15, seed=seed)
+        assert points.positions.dtype == np.float32 and points.positions.shape == (len(points), 3)
+        assert smallest_distance(points.positions, period=1.0) >= 0.15
+        assert farthest(places([0] * 3, [1] * 3), points.positions, period=1.0) <= 0.15 + 1e-6
+        assert (points.report.radius, points.report.covering_radius) == (0.15, 0.15)
+        assert points.ranks is None and points.normals is None and points.triangles is None
+        assert (points.domain_min, points.domain_max, points.boundary) == ([0.0] * 3, [1.0] * 3, "periodic")
+
+
+def test_a_gap_would_be_noticed():
+    positions = np.delete(azulejo.volume_sample(0.15).positions, 17, axis=0)
+    assert farthest(places([0] * 3, [1] * 3), positions, period=1.0) > 0.15 + 1e-6
+
+
+def test_a_bounded_cuboid():
+    points = azulejo.volume_sample(0.05, **SLAB)
+    positions = points.positions
+    assert points.boundary == "bounded" and len(points) > 1000
+    assert (positions >= SLAB["domain_min"]).all() and (positions < SLAB["domain_max"]).all()
+    assert smallest_distance(positions) >= 0.05
+    assert farthest(places(SLAB["domain_min"], SLAB["domain_max"]), positions) <= 0.05 + 1e-6
+
+
+def test_a_count_is_met_exactly():
+    points = azulejo.volume_sample(count=500, seed=3)
+    assert len(points) == 500
+    assert smallest_distance(points.positions, period=1.0) >= points.report.radius
+    assert farthest(places([0] * 3, [1] * 3), points.positions, period=1.0) <= points.report.covering_radius + 1e-6
+    assert points.report.covering_radius <= 1.1 * points.report.radius
+
+
+def test_every_prefix_of_a_progressive_set_is_well_spread():
+    points = azulejo.volume_sample(count=600, order="progressive", quotient=1.2)
+    assert points.ranks.dtype == np.float32 and (np.diff(points.ranks[1:]) <= 0).all()
+    for count in (100, 250, 600):
+        prefix, rank = points.positions[:count], points.ranks[count - 1]
+        assert smallest_distance(prefix, period=1.0) >= rank
+        assert farthest(places([0] * 3, [1] * 3), prefix, period=1.0) <= 1.2 * rank + 1e-6
+    fewer = azulejo.volume_sample(count=250, order="progressive", quotient=1.2)
+    assert (fewer.positions == points.positions[:250]).all()
+
+
+def test_given_samples_keep_their_clearances():
+    given, clearances = given_samples()
+    positions = azulejo.volume_sample(0.1, given_positions=given, given_clearances=clearances).positions
+    apart = distances(positions, given, period=1.0)
+    assert (apart.min(axis=0) >= clearances).all() and len(positions) > 100
+    open_places = places([0] * 3, [1] * 3)
+    open_places = open_places[(distances(open_places, given, period=1.0) >= clearances).all(axis=1)]
+    assert 0 < len(open_places) < 24**3
+    assert farthest(open_places, positions, period=1.0) <= 0.1 + 1e-6
+    alike = azulejo.volume_sample(0.1, given_positions=given).positions
+    assert distances(alike, given, period=1.0).min() >= 0.1
+
+
+def test_a_cuboid_far_from_the_origin_is_in_doubles():
+    low, high = (3.5e6, -2e6, 100.0), (3.5e6 + 1, -2e6 + 1, 101.0)
+    points = azulejo.volume_sample(0.2, domain_min=low, domain_max=high)
+    assert points.positions.dtype == np.float64 and points.local_positions.dtype == np.float32
+    assert (points.positions >= low).all() and (points.positions < high).all()
+    assert (points.origin != 0).tolist() == [True, True, False]
+    assert smallest_distance(points.local_positions, period=1.0) >= 0.2
+
+
+CALLS = {
+    "volume torus": dict(radius=0.02, seed=71),
+    "volume bar": dict(radius=0.05, seed=75, domain_min=(0.25, -7, 0), domain_max=(0.26, 7, 0.3), boundary="bounded"),
+    "volume torus, given": dict(radius=0.04, seed=81, given=True),
+    "volume cube, progressive, given": dict(
+        radius=0.04, seed=81, order="progressive", quotient=1.3, boundary="bounded", given=True
+    ),
+    "volume torus, count, progressive": dict(count=5000, seed=82, order="progressive"),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_the_bytes_are_those_of_the_rust_calls(name):
+    given = given_samples() if CALLS[name].get("given") else (None, None)
+    options = {key: value for key, value in CALLS[name].items() if key != "given"}
+    points = azulejo.volume_sample(**options, given_positions=given[0], given_clearances=given[1])
+    parts = [points.positions.ravel()] + ([] if points.ranks is None else [points.ranks])
+    line = re.search(rf"^(\w+)  {re.escape(name)} \(", SUMS.read_text(), re.MULTILINE)
+    assert hashlib.sha256(np.concatenate(parts).astype("<f4").tobytes()).hexdigest() == line[1]
+
+
+def test_refusals_name_the_argument():
+    for arguments, name in [
+        (dict(), "radius"),
+        (dict(radius=0.1, count=3), "count"),
+        (dict(radius=-1.0), "radius"),
+        (dict(radius=5.0), "radius"),
+        (dict(count=-1), "count"),
+        (dict(radius=0.1, domain_min=(2.0, 0.0, 0.0)), "domain_max"),
+        (dict(radius=0.1, domain_min=(0.0, 0.0)), "domain_min"),
+        (dict(radius=0.1, boundary="open"), "boundary"),
+        (dict(radius=0.1, quotient=1.2), "quotient"),
+        (dict(radius=0.1, order="progressive", quotient=3.0), "quotient"),
+        (dict(count=10, given_positions=[[0.5, 0.5, 0.5]]), "given_clearances"),
+        (dict(radius=0.1, given_positions=[[0.5, 0.5]]), "given_positions"),
+        (dict(radius=0.1, seed=-1), "seed"),
+    ]:
+        with pytest.raises(ValueError, match=f"^{name}: "):
+            azulejo.volume_sample(**arguments)
+    with pytest.raises(MemoryError):
+        azulejo.volume_sample(1e-6)
+
+
+def test_progress_cancels():
+    with pytest.raises(azulejo.Cancelled):
+        azulejo.volume_sample(0.01, progress=lambda done: done < 0.1)

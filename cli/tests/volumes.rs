@@ -1,0 +1,166 @@
+//! `azulejo volume`, from outside.
+
+mod common;
+#[path = "common/ply.rs"]
+#[allow(dead_code)]
+mod ply;
+
+use std::fs;
+
+use azulejo::volume::{Options, sample};
+use azulejo::{Boundary, Context, Domain, Given, Order};
+use common::Workshop;
+use ply::floats;
+
+/// A distance on the unit torus.
+fn distance(a: &[f32], b: &[f64; 3]) -> f64 {
+    let squared = |axis: usize| {
+        let d = (f64::from(a[axis]) - b[axis]).abs();
+        d.min(1.0 - d).powi(2)
+    };
+    (squared(0) + squared(1) + squared(2)).sqrt()
+}
+
+fn wide(point: &[f32]) -> [f64; 3] {
+    [0, 1, 2].map(|axis| point[axis].into())
+}
+
+/// The vertices of a PLY file of `width` floats each, and its header.
+fn rows(workshop: &Workshop, name: &str, width: usize) -> (String, Vec<Vec<f32>>) {
+    floats(&fs::read(workshop.path(name)).unwrap(), width)
+}
+
+#[test]
+fn volume_writes_a_maximal_set_and_its_cuboid() {
+    let workshop = Workshop::new();
+    let said = workshop.succeed(&["volume", "--radius", "0.15", "--seed", "3", "-o", "a.ply"]);
+    let (header, points) = rows(&workshop, "a.ply", 3);
+    assert!(header.contains("comment domain 0 0 0 1 1 1 periodic\n"), "{header}");
+    assert!(said.starts_with(&format!("a.ply: {} samples, radius 0.15, ", points.len())), "{said}");
+    for (i, a) in points.iter().enumerate() {
+        assert!(points[..i].iter().all(|b| distance(a, &wide(b)) >= 0.15));
+    }
+    const STEPS: usize = 20;
+    for place in 0..STEPS.pow(3) {
+        let place = [place % STEPS, place / STEPS % STEPS, place / STEPS / STEPS].map(|i| i as f64 / STEPS as f64);
+        let nearest = points.iter().map(|point| distance(point, &place)).fold(f64::MAX, f64::min);
+        assert!(nearest <= 0.15 + 1e-6, "{place:?}");
+    }
+    let options = Options::new(0.15).seed(3);
+    let (expected, _) = sample(&Context::new(1).unwrap(), &options, None).unwrap();
+    assert!(points.iter().eq(expected.positions.iter()));
+}
+
+#[test]
+fn volume_depends_on_the_seed_and_not_on_the_threads() {
+    let workshop = Workshop::new();
+    let made = |seed, threads| {
+        workshop.succeed(&["volume", "--count", "2000", "--seed", seed, "--threads", threads, "-o", "a.ply"]);
+        fs::read(workshop.path("a.ply")).unwrap()
+    };
+    assert!(made("1", "1") == made("1", "3"));
+    assert!(made("1", "2") != made("2", "2"));
+}
+
+#[test]
+fn volume_fills_the_box_that_it_is_given_in_every_format() {
+    let workshop = Workshop::new();
+    let corners = ["-1", "2", "0", "1", "2.5", "0.25"];
+    let made = |name: &str, flag: &str| {
+        let arguments = [&["volume", "--count", "300", "--bounded", "-o", name, flag], &corners[..]].concat();
+        let said = workshop.succeed(&arguments);
+        assert!(said.starts_with(&format!("{name}: 300 samples, radius 0.0")), "{said}");
+        assert!(said.contains(", covered within 0.0"), "{said}");
+        fs::read(workshop.path(name)).unwrap()
+    };
+    let (header, points) = floats(&made("a.ply", "--box"), 3);
+    assert!(header.contains("comment domain -1 2 0 1 2.5 0.25 bounded\n"), "{header}");
+    let is_inside =
+        |p: &Vec<f32>| (-1.0..1.0).contains(&p[0]) && (2.0..2.5).contains(&p[1]) && (0.0..0.25).contains(&p[2]);
+    assert!(points.len() == 300 && points.iter().all(is_inside));
+    let bytes: Vec<u8> = points.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    assert!(made("a.raw", "--domain") == bytes);
+    let array = made("a.npy", "--domain");
+    assert!(array.ends_with(&bytes) && String::from_utf8_lossy(&array[..128]).contains("(300, 3)"));
+    let lines = |separator: &str| -> Vec<String> {
+        points.iter().map(|p| p.iter().map(|x| x.to_string()).collect::<Vec<_>>().join(separator)).collect()
+    };
+    assert_eq!(String::from_utf8(made("a.csv", "--box")).unwrap(), format!("x,y,z\n{}\n", lines(",").join("\n")));
+    assert_eq!(String::from_utf8(made("a.xyz", "--box")).unwrap(), lines(" ").join("\n") + "\n");
+    // All of them are read again as the same points in space.
+    let around = |name: &str| {
+        let given = ["--given", name, "--clearance", "0.05"];
+        workshop
+            .succeed(&[&["volume", "--radius", "0.03", "-o", "around.ply", "--box"][..], &corners, &given].concat());
+        fs::read(workshop.path("around.ply")).unwrap()
+    };
+    let expected = around("a.ply");
+    assert!(expected.len() > 1000);
+    for name in ["a.npy", "a.csv", "a.xyz", "a.raw"] {
+        assert!(around(name) == expected, "{name}");
+    }
+}
+
+#[test]
+fn volume_sets_in_progressive_order_are_nested() {
+    let workshop = Workshop::new();
+    let made = |name: &str, count: &str| {
+        let order = ["--order", "progressive", "--quotient", "1.2"];
+        workshop.succeed(&[&["volume", "--count", count, "-o", name][..], &order].concat());
+        rows(&workshop, name, 4)
+    };
+    let ((_, few), (header, many)) = (made("a.ply", "150"), made("b.ply", "600"));
+    assert!(header.contains("property float rank\n"), "{header}");
+    assert!(few.len() == 150 && few == many[..150]);
+    for (i, a) in many.iter().enumerate() {
+        assert!(many[..i].iter().all(|b| distance(a, &wide(b)) >= a[3].into()));
+    }
+    workshop.succeed(&["volume", "--count", "150", "--order", "progressive", "--quotient", "1.2", "-o", "a.csv"]);
+    let csv = fs::read_to_string(workshop.path("a.csv")).unwrap();
+    let row = few[149].iter().map(|x| x.to_string()).collect::<Vec<_>>().join(",");
+    assert!(csv.starts_with("x,y,z,rank\n") && csv.ends_with(&format!("{row}\n")), "{csv}");
+}
+
+#[test]
+fn volume_is_made_around_given_points() {
+    let workshop = Workshop::new();
+    workshop.write("given.csv", "x,y,z,clearance\n0.5,0.5,0.5,0.25\n0.125,0.25,0,0.125\n");
+    let made = |arguments: &[&str]| {
+        workshop.succeed(&[&["volume", "--given", "given.csv", "-o", "a.ply"], arguments].concat());
+        rows(&workshop, "a.ply", 3).1
+    };
+    let given = [([0.5, 0.5, 0.5], 0.25), ([0.125, 0.25, 0.0], 0.125)];
+    for points in [made(&["--radius", "0.1"]), made(&["--count", "400"])] {
+        assert!(points.len() > 300);
+        assert!(points.iter().all(|p| given.iter().all(|(place, clearance)| distance(p, place) >= *clearance)));
+    }
+    let points = made(&["--radius", "0.1", "--clearance", "0.3", "--order", "any"]);
+    let positions = given.map(|(place, _)| place.map(|x| x as f32));
+    let options = Options::new(0.1).order(Order::Any).domain(Domain::unit(Boundary::Periodic));
+    let options = options.given(Given::with_clearances(&positions, &[0.3; 2]));
+    let (expected, _) = sample(&Context::new(1).unwrap(), &options, None).unwrap();
+    assert!(points.iter().eq(expected.positions.iter()));
+}
+
+#[test]
+fn volume_refuses_what_it_cannot_make() {
+    let workshop = Workshop::new();
+    workshop.write("given.xyz", "0.5 0.5 0.5\n");
+    workshop.write("flat.csv", "x,y\n0.5,0.5\n");
+    for (arguments, code, text) in [
+        (&["--radius", "-1"][..], 1, "error: radius: "),
+        (&["--radius", "0.1", "--box", "0", "0", "2", "1", "1", "1"], 1, "error: domain_max"),
+        (&["--radius", "0.1", "--order", "progressive", "--quotient", "3"], 1, "error: quotient: "),
+        (&["--count", "10", "--given", "given.xyz"], 1, "error: given.xyz: given_clearances: "),
+        (&["--radius", "0.1", "--given", "flat.csv"], 1, "error: flat.csv: "),
+        (&["--radius", "0.1", "--given", "none.csv"], 1, "error: none.csv: "),
+        (&["--radius", "0.1", "--quotient", "1.2"], 2, "error: "),
+        (&["--radius", "0.1", "--clearance", "0.2"], 2, "error: "),
+        (&["--radius", "0.1", "--count", "5"], 2, "error: "),
+        (&["--radius", "0.1", "--box", "0", "0", "1", "1"], 2, "error: "),
+        (&[], 2, "error: "),
+    ] {
+        let said = workshop.refuse(&[&["volume", "-o", "a.ply"], arguments].concat(), code);
+        assert!(said.starts_with(text), "{arguments:?}: {said}");
+    }
+}
