@@ -9,10 +9,13 @@ use crate::job::{Context, Progress};
 use crate::points::{Boundary, Domain};
 use crate::setters::setters;
 
-/// The peak memory for a point and all of its data; where it has images; and of the thesis's method.
+/// The peak memory for a point and all of its data; and where it has images, in meshes.
 const BYTES_PER_POINT: f64 = 315.0;
 const BYTES_PER_MIRRORED_POINT: f64 = 950.0;
-const BYTES_PER_THESIS_POINT: f64 = 330.0;
+/// The same of the thesis's method in a mesh, and in lists.
+const BYTES_PER_THESIS_POINT: f64 = 490.0;
+const BYTES_PER_MIRRORED_THESIS_POINT: f64 = 1010.0;
+const BYTES_PER_LISTED_THESIS_POINT: f64 = 380.0;
 
 /// The law by which points move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,10 +168,12 @@ pub fn relax_observed(
     options.check()?;
     options.domain.check_points(points)?;
     let Options { domain, neighbourhood, seed, .. } = *options;
-    let bytes = match (&options.method, domain.boundary) {
-        (Method::Thesis(_), _) => BYTES_PER_THESIS_POINT,
-        (Method::Momentum, Boundary::Periodic) => BYTES_PER_POINT,
-        (Method::Momentum, Boundary::Bounded) => BYTES_PER_MIRRORED_POINT,
+    let bytes = match (&options.method, neighbourhood, domain.boundary) {
+        (Method::Momentum, _, Boundary::Periodic) => BYTES_PER_POINT,
+        (Method::Momentum, _, Boundary::Bounded) => BYTES_PER_MIRRORED_POINT,
+        (Method::Thesis(_), Neighbourhood::Nearest, _) => BYTES_PER_LISTED_THESIS_POINT,
+        (Method::Thesis(_), Neighbourhood::Delaunay, Boundary::Periodic) => BYTES_PER_THESIS_POINT,
+        (Method::Thesis(_), Neighbourhood::Delaunay, Boundary::Bounded) => BYTES_PER_MIRRORED_THESIS_POINT,
     };
     require_memory("positions", points.len(), bytes)?;
     match &options.method {
