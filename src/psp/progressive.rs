@@ -151,9 +151,8 @@ impl Psp {
         if options.projectors != Projectors::Local || self.facing.asks_normals() {
             return Ok(false);
         }
-        let samples = measures.expected_samples(mesh, options.radius);
         let covered = self.obstacles.iter().map(|(_, clearance)| PI * clearance * clearance).sum();
-        is_sooner_projected(mesh, measures, options.radius, samples, covered)
+        is_sooner_projected(mesh, measures, options.radius, covered)
     }
 
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {

@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use crate::error::Result;
 use crate::mesh::Mesh;
-use crate::psp::fill::{Measures, ONE_PIECE};
+use crate::psp::fill::{DENSITY, Measures, ONE_PIECE};
 
 /// The number of triangles per expected sample at which both ways take the same time on a flat surface; and the bending
 /// of the surface, in radii, at which they do with few triangles. Measured (`benches/projectors.rs`).
@@ -54,14 +54,16 @@ impl Bending {
     }
 }
 
-/// True if a maximal set of a radius, of which so many samples are expected, is made sooner with an iteration of local
-/// projectors before the fill. Given samples cover no more than an area.
+/// True if a maximal set of a radius is made sooner with an iteration of local projectors before the fill. Given samples
+/// cover no more than an area.
 ///
 /// Sets that are filled in one piece are not projected, which keeps them unbiased.
-pub fn is_sooner_projected(mesh: &Mesh, measures: &Measures, radius: f64, samples: f64, covered: f64) -> Result<bool> {
-    let triangles = measures.triangles().len() as f64 / samples / MOST_TRIANGLES;
-    let cost = triangles + covered / mesh.area() / MOST_COVERED;
-    if samples <= ONE_PIECE || cost > 1.0 {
+pub fn is_sooner_projected(mesh: &Mesh, measures: &Measures, radius: f64, covered: f64) -> Result<bool> {
+    // Those along edges, of which the upper estimate of the fill may have many more, do not count.
+    let samples = DENSITY * mesh.area() / (radius * radius);
+    let triangles = measures.triangles().len() as f64 / samples;
+    let cost = triangles / MOST_TRIANGLES + covered / mesh.area() / MOST_COVERED;
+    if measures.expected_samples(mesh, radius) <= ONE_PIECE || cost > 1.0 {
         return Ok(false);
     }
     let bending: Arc<Bending> = mesh.kept(|| Ok(()), || Ok(Bending::of(mesh, measures)))?;
@@ -99,9 +101,7 @@ mod tests {
         let is_sooner = |mesh: &Mesh, samples: f64| {
             let measures = Measures::of(mesh);
             let radius = (0.7 * mesh.area() / samples).sqrt();
-            let expected = measures.expected_samples(mesh, radius);
-            let by_rule =
-                |share: f64| is_sooner_projected(mesh, &measures, radius, expected, share * mesh.area()).unwrap();
+            let by_rule = |share: f64| is_sooner_projected(mesh, &measures, radius, share * mesh.area()).unwrap();
             assert!(!by_rule(0.5) && (by_rule(0.0) || !by_rule(0.1)), "the less, the more is covered");
             by_rule(0.0)
         };
@@ -112,6 +112,6 @@ mod tests {
         let soup = mesh(meshes::random_soup(3, 2000));
         assert!(!is_sooner(&soup, 3e4) && is_sooner(&soup, 1e7));
         let nothing = torus.clone().with_mask(vec![false; 288_000]).unwrap();
-        assert!(!is_sooner_projected(&nothing, &Measures::of(&nothing), 0.1, 0.0, 0.0).unwrap());
+        assert!(!is_sooner_projected(&nothing, &Measures::of(&nothing), 0.1, 0.0).unwrap());
     }
 }
