@@ -354,6 +354,8 @@ fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
                 calls.set(calls.get() + 1);
                 if calls.get() == limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
+            // One that keeps no pattern yet.
+            let context = Context::new(1).unwrap();
             let mut psp = Psp::new(&mesh, &options).unwrap();
             let cancelled = psp.advance(&context, 1, Some(&stop)).and_then(|_| psp.fill(&context, Some(&stop)));
             check(&mesh, &psp.samples(), options.radius, cancelled.is_ok());
