@@ -51,7 +51,7 @@ fn a_hundred_thousand_samples_of_which_most_are_projected_leave_no_gap() {
     let options = psp::Options::new(RADIUS).seed(1);
     let (mut samples, report) = psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
     assert!(samples.len() > 100_000, "{}", samples.len());
-    assert!(report.iterations == 1 && report.darts < report.samples, "{report:?}");
+    assert!(report.iterations == 1 && report.darts < 2 * report.samples, "{report:?}");
     assert!(samples == sample(1, &mesh, options), "depends on the number of threads");
     assert_eq!(oracle::misplaced(&mesh, &samples), None);
     assert_eq!(oracle::conflict(&samples, RADIUS), None);
