@@ -109,7 +109,7 @@ mod tests {
         assert!(!is_sooner(&plane, 1e4) && is_sooner(&plane, 3e4));
         // 288,000 triangles.
         assert!(!is_sooner(&torus, 2.55e4) && is_sooner(&torus, 5e4));
-        let soup = mesh(meshes::random_soup(3, 2000));
+        let soup = mesh(meshes::random_soup(3, 60_000));
         assert!(!is_sooner(&soup, 3e4) && is_sooner(&soup, 1e7));
         let nothing = torus.clone().with_mask(vec![false; 288_000]).unwrap();
         assert!(!is_sooner_projected(&nothing, &Measures::of(&nothing), 0.1, 0.0).unwrap());
