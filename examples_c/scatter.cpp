@@ -1,5 +1,5 @@
 // The main job: covers a mesh with Poisson-disk samples, fills a plane, relaxes a set, checks all three with the
-// library's own analysis, and writes them as PLY files.
+// library's own analysis, and writes them as PLY files. A row of the table is for the projection alone.
 //
 //   scatter MESH.obj|MESH.ply [--samples 200000] [--out DIR] [--threads N]
 
@@ -82,7 +82,7 @@ azulejo::Progress bar(const char *title) {
         if (percent != shown) {
             shown = percent;
             const std::string filled(static_cast<std::size_t>(percent / 4), '#');
-            std::fprintf(stderr, "\r%-8s [%-25s] %3d %%", title, filled.c_str(), percent);
+            std::fprintf(stderr, "\r%-9s [%-25s] %3d %%", title, filled.c_str(), percent);
             if (done >= 1) std::fprintf(stderr, "\r%60s\r", "");
         }
         return true;
@@ -98,14 +98,14 @@ auto timed(double &seconds, Call call) {
 }
 
 void print_head() {
-    std::printf("%-8s %9s %9s %11s  %-17s  %s\n", "set", "count", "seconds", "samples/s", "smallest distance",
+    std::printf("%-9s %9s %9s %11s  %-17s  %s\n", "set", "count", "seconds", "samples/s", "smallest distance",
                 "uncovered");
 }
 
 // Distances are told in a unit: r, the radius asked for, or d_max, the spacing of a hexagonal arrangement.
 void print_row(const char *set, std::size_t count, double seconds, double smallest, const char *unit,
                const std::string &uncovered) {
-    std::printf("%-8s %9zu %9.3f %11.0f  %9.6f %-7s  %s\n", set, count, seconds, static_cast<double>(count) / seconds,
+    std::printf("%-9s %9zu %9.3f %11.0f  %9.6f %-7s  %s\n", set, count, seconds, static_cast<double>(count) / seconds,
                 smallest, unit, uncovered.c_str());
     std::fflush(stdout);
 }
@@ -200,6 +200,27 @@ void surface(const azulejo::Context &context, const azulejo::Mesh &mesh, const A
     write_surface(arguments.out / "surface.ply", points);
 }
 
+// What one iteration of projection finds: larger maximal sets begin with it. By default triangles are rasterised over the
+// patterns; rays are the points of patterns that are compared with a triangle.
+void projected(const azulejo::Context &context, const azulejo::Mesh &mesh, const Arguments &arguments) {
+    azulejo::PspOptions options;
+    options.radius = std::sqrt(density * mesh.area() / static_cast<double>(arguments.samples));
+    options.iterations = 1;
+    options.maximal = 0;
+    options.engine = AZULEJO_ENGINE_RASTERISER;
+    options.set_progress(bar("projected"));
+    azulejo::PspReport report;
+    double seconds;
+    const auto points = timed(seconds, [&] { return azulejo::psp_sample(context, mesh, options, &report); });
+
+    const double smallest = azulejo::space_smallest_distance(context, points);
+    const double uncovered = azulejo::mesh_uncovered_fraction(context, mesh, points, options.radius, probes);
+    const auto rays = static_cast<double>(report.rays);
+    char text[96];
+    std::snprintf(text, sizeof text, ", %.0f rays, %.0f/s, rasteriser", rays, rays / report.project_seconds);
+    print_row("projected", points.size(), seconds, smallest / options.radius, "r", probed(uncovered) + text);
+}
+
 void plane(const azulejo::Context &context, const Arguments &arguments) {
     azulejo::KdrtOptions options;
     options.radius = std::sqrt(density / static_cast<double>(plane_samples));
@@ -240,6 +261,7 @@ int main(int argc, char **argv) {
         const azulejo::Context context(arguments.threads);
         print_head();
         surface(context, mesh, arguments);
+        projected(context, mesh, arguments);
         plane(context, arguments);
         relax(context, arguments);
         return EXIT_SUCCESS;

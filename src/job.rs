@@ -3,18 +3,20 @@
 //! All parallel code of the crate goes through [`Job::map`]: tasks that share nothing, results in the order of the
 //! tasks. That is what makes every result independent of the number of threads.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::host::process_id;
+use crate::kept::Kept;
 use crate::memory;
 
 /// The polling interval of progress, on the calling thread.
@@ -29,6 +31,7 @@ pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
 /// The threads of the library: a rayon pool of its own, never the global one.
 ///
 /// With one thread no threads are started and all work happens in the caller's. Can be shared freely between threads.
+/// Keeps a pattern that several calls use, about 160 kB, once one has made it.
 ///
 /// A process that is forked has none of the threads: a context with threads refuses to work there.
 #[derive(Debug)]
@@ -37,6 +40,7 @@ pub struct Context {
     pool: Option<ManuallyDrop<rayon::ThreadPool>>,
     /// The process that the threads are in.
     process: u32,
+    kept: Kept,
 }
 
 impl Context {
@@ -52,9 +56,9 @@ impl Context {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             n => n,
         };
-        let process = process_id();
+        let (process, kept) = (process_id(), Kept::default());
         if threads == 1 {
-            return Ok(Self { pool: None, process });
+            return Ok(Self { pool: None, process, kept });
         }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -66,7 +70,7 @@ impl Context {
             // asked for.
             pool.broadcast(|_| drop(std::hint::black_box(Box::new(0u8))));
         }
-        Ok(Self { pool: Some(ManuallyDrop::new(pool)), process })
+        Ok(Self { pool: Some(ManuallyDrop::new(pool)), process, kept })
     }
 
     /// The number of threads that work on a call.
@@ -161,6 +165,12 @@ impl<'a> Job<'a> {
     /// The threads that the job runs on.
     pub(crate) fn context(&self) -> &'a Context {
         self.context
+    }
+
+    /// What the context keeps for all calls, made by `make` if it is not there yet. It must depend on nothing but its
+    /// type.
+    pub(crate) fn kept<T: Any + Send + Sync>(&self, make: impl FnOnce() -> Result<T>) -> Result<Arc<T>> {
+        self.context.kept.get(|| self.report(0.0), make)
     }
 
     /// Reports to the caller that `share` of this part is done.

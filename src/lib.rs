@@ -54,6 +54,7 @@ mod host;
 mod index;
 mod job;
 pub mod kdrt;
+mod kept;
 mod levels;
 mod math;
 pub mod maximal;

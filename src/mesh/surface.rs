@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use crate::centred::Centred;
 use crate::check;
 use crate::error::{Error, Result};
-use crate::mesh::kept::Kept;
+use crate::kept::Kept;
 use crate::points::Points;
 
 /// A triangle soup: finite positions, indices in range, and some surface.

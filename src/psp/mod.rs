@@ -1,13 +1,14 @@
 //! Poisson-disk samples on triangle meshes: by filling, and by progressive sample projection (PSP; thesis chapter 3).
 //!
-//! [`sample`] fills a mesh from nothing: darts fall on all parts that may be uncovered, which are found by subdividing
-//! triangles, round after round until none is open (`fill/`). No rays are traced.
+//! [`sample`] fills a mesh: darts fall on all parts that may be uncovered, which are found by subdividing triangles, round
+//! after round until none is open (`fill/`).
 //!
-//! Iterations of projection precede it only on request ([`project`], [`Psp::advance`]), or replace it in sets that need
-//! not be maximal. A planar Poisson-disk pattern is projected onto the mesh, along a direction for each part of it
-//! ([`Projectors::Local`]) or along three orthogonal directions through all of it ([`Projectors::Global`]), by a
-//! rasteriser or by rays of Embree ([`Engine`]); all hits are candidates; those that conflict with nothing of higher
-//! priority become samples. More iterations with other projectors only add samples, and [`Psp::fill`] closes the gaps.
+//! An iteration of projection precedes the fill where that takes less time (`project/rule.rs`), or as many as are asked
+//! for ([`project`], [`Psp::advance`]); in sets that need not be maximal they replace it. A planar Poisson-disk pattern is
+//! projected onto the mesh, along a direction for each part of it ([`Projectors::Local`]) or along three orthogonal
+//! directions through all of it ([`Projectors::Global`]), by a rasteriser or by rays of Embree ([`Engine`]); all hits are
+//! candidates; those that conflict with nothing of higher priority become samples. More iterations with other projectors
+//! only add samples, and [`Psp::fill`] closes the gaps.
 //!
 //! * *Conflict-free*: no two samples are closer than the radius, in `f64` from the returned floats, in straight lines
 //!   through space (not along the surface).

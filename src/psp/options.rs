@@ -25,7 +25,8 @@ pub enum Priority {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Projectors {
     /// A projector for each chart: a part of the surface that lies in one cube, 48 radii wide, and faces about one
-    /// direction. An iteration takes a fraction of the time of a maximal set and finds most of its samples.
+    /// direction. An iteration takes a fraction of the time of a maximal set and finds most of its samples, where
+    /// triangles are not many for each sample.
     #[default]
     Local,
     /// Three orthogonal projectors for the whole mesh (thesis §3.3.1).
@@ -43,7 +44,8 @@ pub enum Projectors {
 /// edge may fall on the other side, and barycentrics differ by up to this over the height of their triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Engine {
-    /// The rasteriser for local projectors; for global ones Embree, where a build has it
+    /// By cost: the rasteriser for local projectors, which took the least time on every mesh measured, from a triangle for
+    /// thousands of samples to two hundred for each; for global ones Embree, where a build has it
     /// ([`HAS_EMBREE`](crate::trace::HAS_EMBREE)).
     #[default]
     Auto,
@@ -69,7 +71,7 @@ impl Engine {
 ///
 /// If no more than 25,000 samples are expected, on the area and along edges longer than the radius, a set is filled in
 /// one piece and is unbiased; a larger one is filled cube by cube and holds up to about 0.8 % more samples than
-/// unbiased darts give, at the seams of the cubes.
+/// unbiased darts give, at the seams of the cubes, or is [projected](Options::projected) first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options<'a> {
@@ -91,6 +93,10 @@ pub struct Options<'a> {
     /// samples with the same normal interact. The triangles must be wound consistently. Given samples have no normal:
     /// they act on all sides.
     pub cosine: f64,
+    /// True, the default, if an iteration of [local projectors](Projectors::Local) precedes the fill of a set of more
+    /// than about 25,000 samples, in any order, where that takes less time: by a rule of mesh and radius alone
+    /// (docs/design/surface.md). False: all samples are darts. Sets of a count and in progressive order always are.
+    pub projected: bool,
 }
 
 impl Options<'_> {
@@ -106,11 +112,18 @@ impl Options<'_> {
 
     fn of(amount: Amount) -> Self {
         let (order, given) = (Order::Any, Given::default());
-        Self { amount, order, quotient: DEFAULT_QUOTIENT, seed: 0, given, cosine: -1.0 }
+        Self { amount, order, quotient: DEFAULT_QUOTIENT, seed: 0, given, cosine: -1.0, projected: true }
     }
 }
 
-setters!(Options<'a> { order: Order, quotient: f64, seed: u64, given: Given<'a, 3>, cosine: f64 });
+setters!(Options<'a> {
+    order: Order,
+    quotient: f64,
+    seed: u64,
+    given: Given<'a, 3>,
+    cosine: f64,
+    projected: bool,
+});
 
 /// The options of [`Psp`](super::Psp) and of [`project`](super::project).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,9 +205,8 @@ pub struct FlatOptions<'a> {
     pub order: Order,
     /// As [`Options::quotient`].
     pub quotient: f64,
-    /// The number of iterations. `None`, the default: 0 for a maximal set, which takes less time to fill than to
-    /// project and fill, on every mesh and with every radius, and prefers no direction; 1 for a set that is not
-    /// maximal.
+    /// The number of iterations before the fill. `None`, the default: 1 of local projectors where that takes less time
+    /// ([`Options::projected`]) or the set is not maximal, otherwise 0. With 0 all samples are darts.
     pub iterations: Option<u32>,
     /// True, the default, if the surface that the projectors leave uncovered is filled.
     pub maximal: bool,
@@ -234,17 +246,17 @@ impl<'a> FlatOptions<'a> {
     /// The call that these options ask for. Refuses those that cannot be combined.
     pub(super) fn request(&self) -> Result<Request<'a>> {
         let &Self { radius, count, order, quotient, seed, given, cosine, maximal, .. } = self;
-        let iterations = self.iterations.unwrap_or(if maximal { 0 } else { 1 });
+        let iterations = self.iterations;
         if count > 0 || order == Order::Progressive {
-            self.check_filled(iterations)?;
-        } else if iterations == 0 && !maximal {
+            self.check_levels()?;
+            let options = if count > 0 { Options::by_count(count) } else { Options::new(radius) };
+            return Ok(Request::Levels(options.order(order).quotient(quotient).seed(seed).given(given).cosine(cosine)));
+        }
+        if iterations == Some(0) && !maximal {
             // A C struct of zeros, filled without its _init, would be an empty set and a success.
             return Err(Error::invalid("iterations", "0 with maximal off makes no samples"));
-        } else if iterations > 0 {
-            return Ok(Request::Project { options: self.projection(), iterations, maximal });
         }
-        let options = if count > 0 { Options::by_count(count) } else { Options::new(radius) };
-        Ok(Request::Fill(options.order(order).quotient(quotient).seed(seed).given(given).cosine(cosine)))
+        Ok(Request::Project { options: self.projection(), iterations, maximal })
     }
 
     fn projection(&self) -> ProjectionOptions<'a> {
@@ -253,9 +265,9 @@ impl<'a> FlatOptions<'a> {
     }
 
     /// Refuses options that cannot be combined with a count or progressive order.
-    fn check_filled(&self, iterations: u32) -> Result<()> {
+    fn check_levels(&self) -> Result<()> {
         let asked = if self.count > 0 { "count" } else { "progressive order" };
-        if iterations != 0 {
+        if let Some(iterations @ 1..) = self.iterations {
             return Err(Error::invalid("iterations", format!("{iterations}; {asked} requires iterations = 0")));
         }
         if !self.maximal {
@@ -285,10 +297,10 @@ setters!(FlatOptions<'a> {
 
 /// The calls of flat options.
 pub(super) enum Request<'a> {
-    /// [`sample`](super::sample).
-    Fill(Options<'a>),
-    /// [`project`](super::project).
-    Project { options: ProjectionOptions<'a>, iterations: u32, maximal: bool },
+    /// [`sample`](super::sample), of a count or in progressive order.
+    Levels(Options<'a>),
+    /// [`project`](super::project), or where no iterations are given the rule of `sample`.
+    Project { options: ProjectionOptions<'a>, iterations: Option<u32>, maximal: bool },
 }
 
 /// The options of [`sample_classes`](super::sample_classes).

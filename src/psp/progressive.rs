@@ -1,6 +1,7 @@
-//! Sets of one radius or count: in one call, by filling or level by level ([`sample`]), by projection ([`project`]), or
-//! growing call by call ([`Psp`]).
+//! Sets of one radius or count: in one call, by the faster way or level by level ([`sample`]), by projection ([`project`]),
+//! or growing call by call ([`Psp`]).
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
@@ -15,8 +16,8 @@ use crate::psp::editable::{EditableSet, OnMesh};
 use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, Surface, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
-use crate::psp::options::{FlatOptions, Options, ProjectionOptions, Request, check_quotient};
-use crate::psp::project::{Pass, Projection, is_worth_projecting};
+use crate::psp::options::{FlatOptions, Options, ProjectionOptions, Projectors, Request, check_quotient};
+use crate::psp::project::{Pass, Projection, is_sooner_projected, is_worth_projecting};
 use crate::psp::report::{Report, rho};
 use crate::psp::set::SampleSet;
 
@@ -144,6 +145,16 @@ impl Psp {
         Ok(())
     }
 
+    /// True if a maximal set takes less time if an iteration precedes the fill.
+    fn is_sooner_projected(&self) -> Result<bool> {
+        let Self { mesh, measures, options, .. } = self;
+        if options.projectors != Projectors::Local || self.facing.asks_normals() {
+            return Ok(false);
+        }
+        let covered = self.obstacles.iter().map(|(_, clearance)| PI * clearance * clearance).sum();
+        is_sooner_projected(mesh, measures, options.radius, covered)
+    }
+
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
         let iterations = if self.projects { iterations } else { 0 };
         if iterations > 0 && self.iterations == 0 {
@@ -199,7 +210,8 @@ impl Psp {
     }
 }
 
-/// A maximal set in one call, by filling.
+/// A maximal set in one call: by filling, and where that takes less time by an iteration of projection before it
+/// ([`Options::projected`]).
 ///
 /// With [`Amount::Count`] the set has exactly so many samples, and the report has the radius and a bound of the
 /// covering radius. Takes about twice the time of a set of known radius.
@@ -224,9 +236,9 @@ pub fn sample(
 ) -> Result<(Points<3>, Report)> {
     match (options.amount, options.order) {
         (Amount::Radius(radius), Order::Any) => {
-            let &Options { seed, given, cosine, .. } = options;
-            let filled = ProjectionOptions::new(radius).seed(seed).given(given).cosine(cosine);
-            project(context, mesh, &filled, 0, true, progress)
+            let &Options { seed, given, cosine, projected, .. } = options;
+            let options = ProjectionOptions::new(radius).seed(seed).given(given).cosine(cosine);
+            make(context, mesh, &options, if projected { None } else { Some(0) }, true, progress)
         }
         _ => sample_levels(context, mesh, options, progress),
     }
@@ -245,8 +257,24 @@ pub fn project(
     maximal: bool,
     progress: Option<&Progress>,
 ) -> Result<(Points<3>, Report)> {
+    make(context, mesh, options, Some(iterations), maximal, progress)
+}
+
+/// A set in one call, by the rule where the number of iterations is not given.
+fn make(
+    context: &Context,
+    mesh: &Arc<Mesh>,
+    options: &ProjectionOptions,
+    iterations: Option<u32>,
+    maximal: bool,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
     let mut psp = Psp::new(mesh, options)?;
+    let iterations = match iterations {
+        Some(iterations) => iterations,
+        None => u32::from(!maximal || psp.is_sooner_projected()?),
+    };
     psp.check_iterations(iterations)?;
     let mut report = Report::default();
     context.run(progress, |job| {
@@ -265,7 +293,7 @@ pub fn project(
 }
 
 impl FlatOptions<'_> {
-    /// Samples a mesh: by [`sample`], or by [`project`] where there are iterations or the set is not maximal.
+    /// Samples a mesh: by [`sample`] level by level, in any order by [`project`] or by the rule of [`sample`].
     ///
     /// # Errors
     /// Those of the two calls, and [`Error::InvalidArgument`] for `iterations`, sets that are not `maximal` and a
@@ -277,9 +305,9 @@ impl FlatOptions<'_> {
         progress: Option<&Progress>,
     ) -> Result<(Points<3>, Report)> {
         match self.request()? {
-            Request::Fill(options) => sample(context, mesh, &options, progress),
+            Request::Levels(options) => sample(context, mesh, &options, progress),
             Request::Project { options, iterations, maximal } => {
-                project(context, mesh, &options, iterations, maximal, progress)
+                make(context, mesh, &options, iterations, maximal, progress)
             }
         }
     }
@@ -303,7 +331,7 @@ fn sample_levels(
     progress: Option<&Progress>,
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
-    let &Options { amount, order, quotient, seed, given, cosine } = options;
+    let &Options { amount, order, quotient, seed, given, cosine, projected: _ } = options;
     if let Amount::Count(count) = amount {
         check_count(count)?;
     }

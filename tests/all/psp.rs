@@ -7,7 +7,7 @@ use std::sync::Arc;
 use azulejo::analysis::{coverage, spacing};
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors, Psp};
-use azulejo::{Context, Error, MAXIMAL_DENSITY, Points};
+use azulejo::{Context, Error, Given, MAXIMAL_DENSITY, Points};
 use proptest::prelude::*;
 
 use crate::common::meshes::{self, Soup};
@@ -227,7 +227,7 @@ fn candidates_can_come_in_the_order_of_the_thesis_which_finds_fewer() {
 }
 
 #[test]
-fn a_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
+fn a_small_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
     let (context, mesh) = (Context::new(2).unwrap(), mesh(meshes::torus()));
     let (filled, _) = psp::sample(&context, &mesh, &Options::new(0.1), None).unwrap();
     let options = FlatOptions::new(0.1);
@@ -240,6 +240,38 @@ fn a_maximal_set_is_only_filled_unless_iterations_are_asked_for() {
     assert_eq!(sample(options.maximal(false)).1.iterations, 1);
     let none = options.maximal(false).iterations(Some(0)).sample(&context, &mesh, None);
     assert!(matches!(none, Err(Error::InvalidArgument { argument: "iterations", .. })));
+}
+
+/// The other side of the rule: more samples than are filled in one piece, on few triangles.
+#[test]
+fn a_large_maximal_set_on_few_triangles_begins_with_an_iteration_unless_darts_are_asked_for() {
+    let (context, mesh, radius) = (Context::new(2).unwrap(), mesh(meshes::torus()), 0.017);
+    let given = [[1.4, 0.0, 0.0], [0.0, 1.4, 0.0]];
+    for given in [Given::default(), Given::at(&given), Given::with_clearances(&given, &[0.1, 0.2])] {
+        let project = |iterations: u32| {
+            let options = ProjectionOptions::new(radius).seed(3).given(given);
+            psp::project(&context, &mesh, &options, iterations, true, None).unwrap()
+        };
+        let [(filled, _), (projected, report)] = [0, 1].map(project);
+        assert!(filled.len() > 25_000 && filled != projected, "{}", filled.len());
+        let options = Options::new(radius).seed(3).given(given);
+        let (by_default, told) = psp::sample(&context, &mesh, &options, None).unwrap();
+        assert_eq!(by_default, projected);
+        assert_eq!([told.rays, told.hits, told.darts], [report.rays, report.hits, report.darts]);
+        assert!(told.iterations == 1 && told.hits > 0 && told.darts < 2 * told.samples, "{told:?}");
+        assert_eq!(told.hits + told.darts, told.samples + told.conflicts + told.restart_conflicts);
+        assert_eq!(psp::sample(&context, &mesh, &options.projected(false), None).unwrap().0, filled);
+
+        let options = FlatOptions::new(radius).seed(3).given(given);
+        let flat = |options: FlatOptions| options.sample(&context, &mesh, None).unwrap().0;
+        assert_eq!(flat(options), projected);
+        assert_eq!(flat(options.iterations(Some(0))), filled);
+        // What has no local projectors is filled only, and what given samples cover for the most part.
+        let covered = Options::new(radius).given(Given::at(&filled.positions));
+        assert_eq!(psp::sample(&context, &mesh, &covered, None).unwrap().1.iterations, 0);
+        assert_eq!(flat(options.projectors(Projectors::Global)), filled);
+        assert_eq!(flat(options.cosine(0.5)), flat(options.cosine(0.5).iterations(Some(0))));
+    }
 }
 
 #[test]
@@ -322,6 +354,8 @@ fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
                 calls.set(calls.get() + 1);
                 if calls.get() == limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
+            // One that keeps no pattern yet.
+            let context = Context::new(1).unwrap();
             let mut psp = Psp::new(&mesh, &options).unwrap();
             let cancelled = psp.advance(&context, 1, Some(&stop)).and_then(|_| psp.fill(&context, Some(&stop)));
             check(&mesh, &psp.samples(), options.radius, cancelled.is_ok());

@@ -28,7 +28,7 @@ fn torus() -> Arc<Mesh> {
 #[test]
 fn a_hundred_thousand_samples_conflict_nowhere_and_leave_no_gap_on_any_number_of_threads() {
     let mesh = torus();
-    let options = psp::Options::new(RADIUS);
+    let options = psp::Options::new(RADIUS).projected(false);
     let mut samples = sample(1, &mesh, options);
     assert!(samples.len() > 100_000, "{}", samples.len());
     assert_eq!(oracle::misplaced(&mesh, &samples), None);
@@ -44,13 +44,15 @@ fn a_hundred_thousand_samples_conflict_nowhere_and_leave_no_gap_on_any_number_of
     assert!(oracle::conflict(&samples, RADIUS).is_some());
 }
 
-/// Projected samples first, then the fill of what they leave.
+/// Projected samples first, then the fill of what they leave: by default.
 #[test]
 fn a_hundred_thousand_samples_of_which_most_are_projected_leave_no_gap() {
     let mesh = torus();
-    let options = psp::ProjectionOptions::new(RADIUS).seed(1);
-    let (mut samples, _) = psp::project(&Context::new(2).unwrap(), &mesh, &options, 1, true, None).unwrap();
+    let options = psp::Options::new(RADIUS).seed(1);
+    let (mut samples, report) = psp::sample(&Context::new(2).unwrap(), &mesh, &options, None).unwrap();
     assert!(samples.len() > 100_000, "{}", samples.len());
+    assert!(report.iterations == 1 && report.darts < 2 * report.samples, "{report:?}");
+    assert!(samples == sample(1, &mesh, options), "depends on the number of threads");
     assert_eq!(oracle::misplaced(&mesh, &samples), None);
     assert_eq!(oracle::conflict(&samples, RADIUS), None);
     assert_eq!(gap(&mesh, &samples), None);

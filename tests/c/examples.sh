@@ -51,7 +51,8 @@ check_numbers() { # FILE COLUMNS AT-LEAST
 
 run_scatter() { # BUILD
     "$1/scatter" "$work/roof.obj" --samples 5000 --out "$work/out" --threads 2 >"$work/table.txt" &&
-        cat "$work/table.txt" && [ "$(wc -l <"$work/table.txt")" = 4 ] &&
+        cat "$work/table.txt" && [ "$(wc -l <"$work/table.txt")" = 5 ] &&
+        grep -Eq '^projected .* [1-9][0-9]* rays, [1-9][0-9]*/s, rasteriser$' "$work/table.txt" &&
         has_vertices surface.ply 36 && has_vertices plane.ply 8 && has_vertices relaxed.ply 8 &&
         [ "$(ls "$work/out" | wc -l)" = 3 ] && fails "$1/scatter" && fails "$1/scatter" "$work/missing.obj"
 }

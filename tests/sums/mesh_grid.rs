@@ -67,7 +67,7 @@ fn add(list: &mut List, name: &str, (samples, report): (Points<3>, Report)) {
     list.numbers(&format!("{name}: report"), &[counts, numbers].concat());
 }
 
-/// Sets that are filled: of one radius, by count, in order, in classes; around nothing and around given samples.
+/// Sets of one radius, filled and by the default, by count, in order, in classes; around nothing and around given samples.
 fn uniform(
     context: &Context,
     place: &str,
@@ -84,7 +84,8 @@ fn uniform(
         (", given", Given::with_clearances(positions, &own), Given::with_clearances(positions, &of_classes)),
     ] {
         for (name, options) in [
-            ("fill", Options::new(size.filled)),
+            ("fill", Options::new(size.filled).projected(false)),
+            ("by the faster way", Options::new(size.filled)),
             ("count", Options::by_count(size.count)),
             ("ordered", Options::new(size.coarse).order(Order::Progressive)),
             ("ordered count", Options::by_count(size.count).order(Order::Progressive).quotient(1.3)),

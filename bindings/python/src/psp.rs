@@ -67,7 +67,8 @@ impl From<psp::Report> for PspReport {
 /// count: the number of samples, which is met exactly; the radius is found.
 /// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
 /// quotient: of a progressive order, the ratio of the radii of its levels, 1.02 to 1.5; default 2**(1/8).
-/// iterations: of projection before the set is filled; default: none, or 1 for sets that are not maximal.
+/// iterations: of projection before the set is filled; default: 1 where that takes less time or the set is not maximal,
+///     otherwise 0. With 0 all samples are darts.
 /// maximal: whether to fill what projection leaves.
 /// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
 /// projectors: which project the patterns of an iteration: one for each part of the mesh that faces about one direction

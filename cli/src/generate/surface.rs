@@ -90,8 +90,8 @@ pub struct Surface {
     cosine: f64,
     #[command(flatten)]
     common: Common,
-    /// The number of projections of patterns onto the whole mesh before gaps are filled [default: 0, or 1 with
-    /// --no-fill].
+    /// The number of projections of patterns onto the whole mesh before gaps are filled [default: 1 where it takes less
+    /// time or with --no-fill, otherwise 0].
     #[arg(long, value_name = "N", conflicts_with_all = OF_ONE_RADIUS)]
     iterations: Option<u32>,
     /// Leaves the gaps that remain after the iterations.

@@ -11,8 +11,11 @@ mod pattern;
 pub mod projector;
 mod raster;
 mod rays;
+mod rule;
 #[cfg(test)]
 mod tests;
+
+pub use rule::is_sooner_projected;
 
 use crate::error::Result;
 use crate::host::Stopwatch;

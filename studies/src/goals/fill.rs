@@ -51,7 +51,7 @@ pub fn section(study: &Study) -> Result<String> {
 }
 
 fn set(context: &Context, mesh: &Arc<Mesh>, count: f64) -> Result<usize> {
-    Ok(psp::sample(context, mesh, &Options::new(radius(mesh, count)).seed(1), None)?.0.len())
+    Ok(psp::sample(context, mesh, &Options::new(radius(mesh, count)).seed(1).projected(false), None)?.0.len())
 }
 
 /// First and later calls: each round has a mesh of its own for each number of samples.

@@ -148,8 +148,9 @@ fn found(densities: &[Density]) -> String {
     let farthest = densities.iter().filter(|one| one.way.is_one_piece && one.is_smooth);
     let farthest = farthest.map(|one| 100.0 * (one.density.mean / MAXIMAL_DENSITY - 1.0).abs()).fold(0.0, f64::max);
     format!(
-        "By default a set is only filled: in one piece where at most 25,000 samples are expected on the area and along edges that \
-         are longer than the radius, cube by cube where there are more. In one piece sets are within {farthest:.2} % of the jamming \
+        "A set is filled in one piece where at most 25,000 samples are expected on the area and along edges that \
+         are longer than the radius, cube by cube where there are more, or by default projected once, with local projectors, \
+         then filled. In one piece sets are within {farthest:.2} % of the jamming \
          limit on the smooth surfaces. Filled cube by cube they have {} samples beside those in one piece, at the seams of \
          the cubes, wherever these face; projected once, then filled, {}, by where the surface faces (next section).\n",
         excess(0),

@@ -207,7 +207,8 @@ fn to_quality(measured: &[Measured]) -> String {
     };
     let mut text =
         "Seconds to a relative radius, by the iterations of the tables above. The thesis calls 0.9 enough for most \
-        uses and 0.98 close to maximal; its fig. 3.15 compares others' methods so, as does the next section, on smaller sets.\n\n| scene, method | 0.9 | 0.95 | 0.98 |\n|---|---|---|---|\n"
+        uses and 0.98 close to maximal; its fig. 3.15 compares others' methods so, as does the next section, on smaller sets. *Filled* rows end \
+        with our fill, which the thesis does not have; projection alone is the other two.\n\n| scene, method | 0.9 | 0.95 | 0.98 |\n|---|---|---|---|\n"
             .to_owned();
     for one in measured {
         let [squareness, projector] = &one.growth.iterated;
@@ -240,8 +241,8 @@ fn directions(effort: &Effort, measured: &[Measured]) -> String {
         "## Directions before filling\n\nSeconds to a maximal set of about {} samples, by the number of directions from \
          which patterns are projected before the rest is filled: all, then iterations + fill. Of 0 and 3 directions there are {} \
          rounds, of more {}. A number of directions took the least time where its range is below all others (rank-sum test). \
-         The default is 0, on every mesh and with every radius, see *Density of maximal sets*. Iterations have \
-         to be asked for.\n\n{}\n{}",
+         These are global projectors, which have to be asked for. By default a set begins with one iteration of local \
+         projectors where that takes less time ([design/surface.md](design/surface.md#filled-or-projected)).\n\n{}\n{}",
         grouped(effort.samples as usize),
         effort.judged_rounds,
         effort.rounds,

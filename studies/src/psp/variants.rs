@@ -45,7 +45,7 @@ impl Variant {
 
     pub fn name(self) -> String {
         if self.iterations == 0 {
-            return if self.is_one_piece { "filled in one piece (reference)" } else { "filled, the default" }
+            return if self.is_one_piece { "filled in one piece (reference)" } else { "filled cube by cube" }
                 .to_owned();
         }
         let plural = if self.iterations == 1 { "" } else { "s" };

@@ -37,7 +37,7 @@ const CUBES: f64 = 2.0;
 
 /// The pattern of local projectors, and the mesh for rays if these are the engine.
 pub struct LocalProjection {
-    torus: Torus,
+    torus: Arc<Torus>,
     space: Option<Arc<TraceSpace>>,
 }
 
@@ -47,7 +47,7 @@ impl LocalProjection {
             Engine::Embree => Some(TraceSpace::of(&job.part(0.0, 0.7), mesh)?),
             Engine::Rasteriser | Engine::Auto => None,
         };
-        Ok(Self { torus: Torus::new(&job.part(0.7, 1.0), options.seed)?, space })
+        Ok(Self { torus: Torus::kept(&job.part(0.7, 1.0))?, space })
     }
 
     /// Projects the pattern, and adds what conflicts with nothing that was there or comes first.

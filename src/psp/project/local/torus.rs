@@ -1,4 +1,10 @@
 //! The pattern of local projectors: a maximal periodic Poisson-disk set of radius 1, sorted by cells.
+//!
+//! It is the same for all sets, and kept with the context: to make it takes as long as a tenth of a maximal set of 10^5
+//! samples. Every chart has a random turn and offset of its own into it (`projector.rs`), so that sets of different seeds
+//! have nothing else in common.
+
+use std::sync::Arc;
 
 use crate::error::Result;
 use crate::index::Binned;
@@ -8,6 +14,8 @@ use crate::psp::project::pattern;
 /// The side of the pattern in radii, and the number of its cells along an axis: more than a chart is long, so that no
 /// chart meets a point of the pattern in two places of a plane.
 const SIDE: i32 = 128;
+/// Any number.
+const SEED: u64 = 0;
 
 /// A pattern that repeats along both axes.
 pub struct Torus {
@@ -24,6 +32,11 @@ pub struct Run<'a> {
 }
 
 impl Torus {
+    /// The pattern that the context keeps.
+    pub fn kept(job: &Job) -> Result<Arc<Self>> {
+        job.kept(|| Self::new(job, SEED))
+    }
+
     pub fn new(job: &Job, seed: u64) -> Result<Self> {
         let (_, points) = pattern::torus(job, f64::from(SIDE), seed)?;
         let cell = |x: f32| (x as usize).min(SIDE as usize - 1);

@@ -1,6 +1,7 @@
-//! Data made from a mesh on first use, and kept with it for the calls that follow.
+//! Data made on first use, and kept with a mesh or a context for the calls that follow.
 //!
-//! Data are identified by their type, so that a mesh need not know who keeps them: Embree's scene (psp), for example.
+//! Data are identified by their type, so that their owner need not know who keeps them: with a mesh Embree's scene (psp),
+//! with a context the pattern of local projectors.
 
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
@@ -17,7 +18,7 @@ const INTERVAL: Duration = Duration::from_millis(20);
 
 /// Values of different types, each made once.
 #[derive(Debug, Default)]
-pub(super) struct Kept {
+pub struct Kept {
     slots: Mutex<HashMap<TypeId, Slot>>,
     /// Signalled when one of them was made, or failed to be.
     changed: Condvar,
