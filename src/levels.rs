@@ -297,7 +297,7 @@ impl<S: Ranked> LevelledSet<S> {
 
 /// A radius, and the number of samples of a set of this radius.
 #[derive(Clone, Copy)]
-struct Known {
+struct Counted {
     radius: f64,
     len: usize,
 }
@@ -309,10 +309,10 @@ pub fn exactly<S: Levelled>(
     count: usize,
     finest: f64,
 ) -> Result<LevelledSet<S::Sample>> {
-    let mut above: Option<Known> = None;
+    let mut above: Option<Counted> = None;
     let mut taken_back = 0;
     for key in 0.. {
-        let former = Known { radius: levels.radius(), len: levels.len() };
+        let former = Counted { radius: levels.radius(), len: levels.len() };
         if former.radius == finest {
             return Err(none_finer::<S>(count, former.len, finest));
         }
@@ -333,7 +333,7 @@ pub fn exactly<S: Levelled>(
             return Ok(LevelledSet::cut(levels, count, former.radius));
         } else {
             levels.take_back(former.len, former.radius);
-            above = Some(Known { radius, len });
+            above = Some(Counted { radius, len });
             taken_back += 1;
         }
     }
@@ -343,7 +343,7 @@ pub fn exactly<S: Levelled>(
 /// The radius of the next level.
 fn next_radius<S: Levelled>(
     levels: &Levels<S>,
-    above: Option<Known>,
+    above: Option<Counted>,
     taken_back: u32,
     count: usize,
     finest: f64,
@@ -357,8 +357,8 @@ fn next_radius<S: Levelled>(
             let count = count as f64;
             return expected_radius(&levels.surface, AIM * count / (1.0 + 2.0 / count.sqrt()), finest);
         }
-        0 => Known { radius: top, len: 1 },
-        len => Known { radius: levels.radius(), len },
+        0 => Counted { radius: top, len: 1 },
+        len => Counted { radius: levels.radius(), len },
     };
     let growth = root(count as f64 / below.len as f64);
     match above {

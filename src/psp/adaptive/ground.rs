@@ -10,7 +10,7 @@ use crate::mesh::{Mesh, round_barycentrics};
 use crate::psp::adaptive::grid::{GradedSample, Grid};
 use crate::psp::adaptive::pieces::Piece;
 use crate::psp::adaptive::{CubeOfPieces, GradedSurface, MeasuredTriangles, Quota, RadiusBounds, RadiusField};
-use crate::psp::fill::{GROUP, Ground, Group, Layer, Open, PATCH, Patch, Point, WHOLE, Whole};
+use crate::psp::fill::{BATCH, Batch, Ground, Layer, Open, PATCH, Patch, Point, WHOLE, WholeTriangle};
 use crate::psp::fragment::Fragment;
 use crate::psp::given::Obstacles;
 use crate::psp::set::Sample;
@@ -81,13 +81,13 @@ impl<'a> GradedGround<'a> {
 
     /// The open parts of some pieces.
     pub fn open_pieces<'p>(&self, pieces: impl Iterator<Item = &'p Piece>) -> Open<RadiusBounds> {
-        let (mut open, mut wholes) = (Open::default(), Vec::with_capacity(GROUP));
+        let (mut open, mut wholes) = (Open::default(), Vec::with_capacity(BATCH));
         for piece in pieces {
             match piece {
                 Piece::Whole(whole) => wholes.push(*whole),
                 Piece::Part(part) => self.open_parts(&part.fragment, part.longest, part.local, &mut open),
             }
-            if wholes.len() == GROUP {
+            if wholes.len() == BATCH {
                 self.add_open_wholes(&wholes, &mut open);
                 wholes.clear();
             }
@@ -99,7 +99,7 @@ impl<'a> GradedGround<'a> {
     }
 
     /// Adds the triangles of a group that are not covered: whole, if they are small, or in parts.
-    fn add_open_wholes(&self, wholes: &[Whole<RadiusBounds>], open: &mut Open<RadiusBounds>) {
+    fn add_open_wholes(&self, wholes: &[WholeTriangle<RadiusBounds>], open: &mut Open<RadiusBounds>) {
         let mut uncovered = self.open_wholes(wholes);
         while uncovered != 0 {
             let whole = wholes[uncovered.trailing_zeros() as usize];
@@ -192,11 +192,11 @@ impl Ground for GradedGround<'_> {
         self.uncovered(&patch.fragment, patch.local, corners, longest, patch.open)
     }
 
-    fn open_wholes(&self, wholes: &[Whole<RadiusBounds>]) -> u64 {
+    fn open_wholes(&self, wholes: &[WholeTriangle<RadiusBounds>]) -> u64 {
         if self.has_failed() {
             return 0;
         }
-        let mut group = Group::EMPTY;
+        let mut group = Batch::EMPTY;
         for (lane, whole) in wholes.iter().enumerate() {
             let positions = self.mesh.corners(whole.triangle);
             let radii = self.field.radii_from(&Fragment::whole(whole.triangle), whole.local.times(self.share));

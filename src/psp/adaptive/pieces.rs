@@ -12,7 +12,7 @@ use crate::job::{Chunks, Job, chunks_of};
 use crate::mesh::Mesh;
 use crate::psp::adaptive::field::{Quota, RadiusBounds, RadiusField};
 use crate::psp::adaptive::set::{CubesOfPieces, OctaveCubes};
-use crate::psp::fill::{Patch, Whole, expected_samples_of, longest_edge, require_samples};
+use crate::psp::fill::{Patch, WholeTriangle, expected_samples_of, longest_edge, require_samples};
 use crate::psp::fragment::{Fragment, Shape, slice};
 use crate::psp::set::OctaveCube;
 
@@ -28,7 +28,7 @@ pub const LONGEST: f64 = 4.0;
 
 /// A piece of the surface, all of it uncovered.
 pub enum Piece {
-    Whole(Whole<RadiusBounds>),
+    Whole(WholeTriangle<RadiusBounds>),
     Part(Box<Patch<RadiusBounds>>),
 }
 
@@ -174,7 +174,7 @@ pub fn pieces(
             if cuts.is_small(longest, bounds) {
                 let bounds = field.settled(bounds);
                 let (area, longest) = (area * bounds.density(), longest / bounds.scale());
-                let whole = Whole { triangle, area: area as f32, longest: longest as f32, local: bounds };
+                let whole = WholeTriangle { triangle, area: area as f32, longest: longest as f32, local: bounds };
                 cuts.add(centre, bounds, Piece::Whole(whole));
             } else {
                 slice(mesh, triangle, LONGEST * field.settled(bounds).scale(), &mut slices);

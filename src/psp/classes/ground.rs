@@ -11,7 +11,7 @@ use crate::math::rounded_down;
 use crate::mesh::Mesh;
 use crate::psp::classes::layers::Layers;
 use crate::psp::classes::site::{Classed, Group, Places};
-use crate::psp::fill::{GROUP, Ground, Layer, Open, Patch, Point, Whole};
+use crate::psp::fill::{BATCH, Ground, Layer, Open, Patch, Point, WholeTriangle};
 use crate::psp::fragment::Fragment;
 use crate::psp::levels::SurfaceSample;
 use crate::psp::set::Sample;
@@ -70,11 +70,11 @@ impl<'a, G: Layer<Sample: SurfaceSample + Copy>> ClassGround<'a, G> {
     /// Those of the open parts of the own layer of a class that are open in all others.
     pub fn open_in_all(&self, class: u8, open: &Open<G::Local>) -> Open<Classed<G::Local>> {
         let mut all = Open::default();
-        for wholes in open.wholes.chunks(GROUP) {
-            let mut bits = self.open_in_others(class, wholes, u64::MAX >> (GROUP - wholes.len()));
+        for wholes in open.wholes.chunks(BATCH) {
+            let mut bits = self.open_in_others(class, wholes, u64::MAX >> (BATCH - wholes.len()));
             while bits != 0 {
-                let &Whole { triangle, area, longest, local } = &wholes[bits.trailing_zeros() as usize];
-                all.wholes.push(Whole { triangle, area, longest, local: Classed { class, local } });
+                let &WholeTriangle { triangle, area, longest, local } = &wholes[bits.trailing_zeros() as usize];
+                all.wholes.push(WholeTriangle { triangle, area, longest, local: Classed { class, local } });
                 bits &= bits - 1;
             }
         }
@@ -88,7 +88,7 @@ impl<'a, G: Layer<Sample: SurfaceSample + Copy>> ClassGround<'a, G> {
     }
 
     /// Those of some open triangles that are open in all layers but the own one: a bit for each.
-    fn open_in_others(&self, class: u8, wholes: &[Whole<G::Local>], mut open: u64) -> u64 {
+    fn open_in_others(&self, class: u8, wholes: &[WholeTriangle<G::Local>], mut open: u64) -> u64 {
         for ground in self.others(class) {
             if open == 0 {
                 break;
@@ -118,8 +118,8 @@ impl<'a, G: Layer<Sample: SurfaceSample + Copy>> ClassGround<'a, G> {
 }
 
 /// A whole without its class, as the layers take it.
-fn plain<L: Copy>(&Whole { triangle, area, longest, local }: &Whole<Classed<L>>) -> Whole<L> {
-    Whole { triangle, area, longest, local: local.local }
+fn plain<L: Copy>(&WholeTriangle { triangle, area, longest, local }: &WholeTriangle<Classed<L>>) -> WholeTriangle<L> {
+    WholeTriangle { triangle, area, longest, local: local.local }
 }
 
 /// A patch without its class, as the layers take it.
@@ -152,10 +152,11 @@ impl<G: Layer<Sample: SurfaceSample + Copy>> Ground for ClassGround<'_, G> {
         self.open_parts_in_others(class, &plain, open)
     }
 
-    fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64 {
+    fn open_wholes(&self, wholes: &[WholeTriangle<Self::Local>]) -> u64 {
         let (mut open, mut start) = (0, 0);
         for run in wholes.chunk_by(|a, b| a.local.class == b.local.class) {
-            let (class, plain): (_, Vec<Whole<G::Local>>) = (run[0].local.class, run.iter().map(plain).collect());
+            let (class, plain): (_, Vec<WholeTriangle<G::Local>>) =
+                (run[0].local.class, run.iter().map(plain).collect());
             let of_run = self.own(class).open_wholes(&plain);
             open |= self.open_in_others(class, &plain, of_run) << start;
             start += run.len();

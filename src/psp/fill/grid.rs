@@ -92,7 +92,7 @@ mod tests {
     use crate::mesh::Mesh;
     use crate::psp::fill::cells::Cells;
     use crate::psp::fill::extent::Extent;
-    use crate::psp::fill::page::Group;
+    use crate::psp::fill::page::Batch;
     use crate::psp::fragment::Fragment;
     use crate::psp::fragment::{Facing, NO_NORMAL};
     use crate::rng::{Draw, Rng};
@@ -148,7 +148,7 @@ mod tests {
             // A radius far larger than the mesh is replaced by a smaller one.
             let radius = grid.space.radius() / f64::from(grid.space.scale());
             samples.iter().for_each(|&sample| grid.add(grid.space.place(sample), NO_NORMAL));
-            let (whole, mut group) = (Fragment::whole(0), Group::EMPTY);
+            let (whole, mut group) = (Fragment::whole(0), Batch::EMPTY);
             group.triangles[0] = mesh.corners(0).map(|corner| grid.space.place(corner));
             let is_open = grid.open_triangles(&mut group, 1, |_| NO_NORMAL) == 1;
             let shape = whole.shape(&mesh);

@@ -32,9 +32,9 @@ pub use extent::Extent;
 pub use measures::{
     BYTES_PER_SAMPLE, DENSITY, Measures, check_radius_on, expected_samples_of, longest_edge, require_samples,
 };
-pub use page::{BEYOND, GROUP, Group, LANES};
+pub use page::{BATCH, BEYOND, Batch, LANES};
 pub use pages::Pages;
-pub use rounds::{Ground, Layer, Open, PATCH, Patch, Point, TOLERANCE, WHOLE, Whole, throw};
+pub use rounds::{Ground, Layer, Open, PATCH, Patch, Point, TOLERANCE, WHOLE, WholeTriangle, throw};
 pub use space::{Place, Space};
 pub use uniform::{Surface, Uniform, UniformGround};
 

@@ -38,12 +38,12 @@ pub struct Page<const AXES: usize>(pub [[f32; LANES]; AXES]);
 const THIRD: f64 = 1.0 / 3.0;
 
 /// Triangles that are tested together.
-pub const GROUP: usize = 64;
+pub const BATCH: usize = 64;
 
-/// Some triangles, by their corners, and a page for each.
-pub struct Group<const AXES: usize = SPACE> {
-    pub triangles: [[[f32; AXES]; 3]; GROUP],
-    pub pages: [u32; GROUP],
+/// Triangles by their corners, and a page for each.
+pub struct Batch<const AXES: usize = SPACE> {
+    pub triangles: [[[f32; AXES]; 3]; BATCH],
+    pub pages: [u32; BATCH],
 }
 
 /// A fragment relative to a place near it.
@@ -110,8 +110,8 @@ impl<const AXES: usize> Page<AXES> {
     }
 }
 
-impl<const AXES: usize> Group<AXES> {
-    pub const EMPTY: Self = Self { triangles: [[[0.0; AXES]; 3]; GROUP], pages: [0; GROUP] };
+impl<const AXES: usize> Batch<AXES> {
+    pub const EMPTY: Self = Self { triangles: [[[0.0; AXES]; 3]; BATCH], pages: [0; BATCH] };
 }
 
 /// The samples of a page, one axis after the other.
@@ -194,7 +194,7 @@ fn covered<const AXES: usize, L: Lanes>(
 
 /// The triangles of a group that one sample of their page covers: a bit for each.
 pub struct CoveredTriangles<'a, const AXES: usize> {
-    pub group: &'a Group<AXES>,
+    pub group: &'a Batch<AXES>,
     pub pages: &'a [Page<AXES>],
     pub limit: f32,
 }
@@ -233,7 +233,7 @@ mod tests {
             for page in &mut pages[1..] {
                 (0..13).for_each(|lane| page.put(lane, sample([0.0; 3], 1.5)));
             }
-            let mut group = Group::EMPTY;
+            let mut group = Batch::EMPTY;
             for lane in 0..60 {
                 let ([x, y, z], size) =
                     (sample([0.0; 3], 1.0).first_chunk().copied().unwrap(), [0.5, 0.1, 1e-4][lane % 3]);

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::psp::fill::cells::{Cells, each_cell};
 use crate::psp::fill::page::{
-    BEYOND, CoveredTriangles, Covering, GROUP, Group, LANES, Near, Page, Part, WITHIN, samples, squares,
+    BATCH, BEYOND, Batch, CoveredTriangles, Covering, LANES, Near, Page, Part, WITHIN, samples, squares,
 };
 use crate::psp::fill::space::{MASK, Place, ROUNDER, Space};
 use crate::psp::fragment::{CORNERS, CORNERS_OF_SIXTEENTHS, Cover, Facing, NO_NORMAL, PIERCING, PIERCING_BY_EDGE};
@@ -134,8 +134,8 @@ impl<const AXES: usize> Pages<AXES> {
 
     /// The triangles of a group, with these normals, that no single sample certainly covers: a bit for each. Their
     /// pages are looked up here.
-    pub fn open_triangles(&self, group: &mut Group<AXES>, count: usize, normal: impl Fn(usize) -> [f32; 3]) -> u64 {
-        let (mut numbers, mut chained) = ([0; GROUP], 0);
+    pub fn open_triangles(&self, group: &mut Batch<AXES>, count: usize, normal: impl Fn(usize) -> [f32; 3]) -> u64 {
+        let (mut numbers, mut chained) = ([0; BATCH], 0);
         for (lane, number) in numbers.iter_mut().enumerate() {
             *number = self.cells.number(self.space.cell(place(&group.triangles[lane][0])));
         }
@@ -144,7 +144,7 @@ impl<const AXES: usize> Pages<AXES> {
             group.pages[lane] = cell.page;
             chained |= u64::from(cell.count as usize > LANES) << lane;
         }
-        let all = u64::MAX >> (GROUP - count);
+        let all = u64::MAX >> (BATCH - count);
         let mut open = all & !run(self.level, CoveredTriangles { group, pages: &self.pages, limit: self.within });
         let mut rest = open & chained;
         if self.facing.asks_normals() {

@@ -18,7 +18,7 @@
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::psp::fill::darts::{PoissonProcess, random_point, shuffle};
-use crate::psp::fill::page::GROUP;
+use crate::psp::fill::page::BATCH;
 use crate::psp::fragment::Fragment;
 use crate::rng::Rng;
 
@@ -43,7 +43,7 @@ const TOGETHER: usize = 32;
 
 /// A whole triangle, small beside the radius, that may be uncovered.
 #[derive(Clone, Copy, Debug)]
-pub struct Whole<L = ()> {
+pub struct WholeTriangle<L = ()> {
     pub triangle: u32,
     pub area: f32,
     pub longest: f32,
@@ -101,7 +101,7 @@ pub trait Ground {
     fn open_sixteenths(&self, patch: &Patch<Self::Local>) -> u16;
 
     /// Those of at most 64 triangles that no single sample certainly covers: a bit for each.
-    fn open_wholes(&self, wholes: &[Whole<Self::Local>]) -> u64;
+    fn open_wholes(&self, wholes: &[WholeTriangle<Self::Local>]) -> u64;
 
     /// The mesh that the surface belongs to.
     fn mesh(&self) -> &Mesh;
@@ -155,7 +155,7 @@ pub trait Layer: Ground {
 
 /// The parts of a surface that may be uncovered.
 pub struct Open<L = ()> {
-    pub wholes: Vec<Whole<L>>,
+    pub wholes: Vec<WholeTriangle<L>>,
     pub patches: Vec<Patch<L>>,
 }
 
@@ -220,7 +220,7 @@ impl<L: Copy> Open<L> {
     pub fn point(&self, number: u32, rng: &mut Rng) -> Point<L> {
         let number = number as usize;
         match self.wholes.get(number) {
-            Some(&Whole { triangle, local, .. }) => Point { triangle, barycentrics: random_point(rng), local },
+            Some(&WholeTriangle { triangle, local, .. }) => Point { triangle, barycentrics: random_point(rng), local },
             None => {
                 let Patch { fragment, open, local, .. } = &self.patches[number - self.wholes.len()];
                 let skipped = rng.below(open.count_ones().into());
@@ -247,8 +247,8 @@ impl<L: Copy> Open<L> {
     pub fn update<G: Ground<Local = L>>(&mut self, ground: &mut G, limit: f32) {
         let is_kept = |longest: f32, finest: f32| longest <= limit && finest <= limit;
         let (mut kept, mut grown, mut last) = (0, Vec::new(), Vec::new());
-        for start in (0..self.wholes.len()).step_by(GROUP) {
-            let end = (start + GROUP).min(self.wholes.len());
+        for start in (0..self.wholes.len()).step_by(BATCH) {
+            let end = (start + BATCH).min(self.wholes.len());
             let mut open = ground.open_wholes(&self.wholes[start..end]);
             while open != 0 {
                 let whole = self.wholes[start + open.trailing_zeros() as usize];

@@ -11,8 +11,8 @@ use crate::psp::fill::cells::Cells;
 use crate::psp::fill::extent::Extent;
 use crate::psp::fill::grid::Grid;
 use crate::psp::fill::measures::{Ball, Measures, Triangles};
-use crate::psp::fill::page::{GROUP, Group};
-use crate::psp::fill::rounds::{Ground, Layer, Open, PATCH, Patch, Point, WHOLE, Whole};
+use crate::psp::fill::page::{BATCH, Batch};
+use crate::psp::fill::rounds::{Ground, Layer, Open, PATCH, Patch, Point, WHOLE, WholeTriangle};
 use crate::psp::fill::space::Space;
 use crate::psp::fill::{FillOptions, Filled, Kinds, ONE_PIECE, Site, fill};
 use crate::psp::fragment::{Facing, Fragment, NO_NORMAL, SIXTEENTHS, slice};
@@ -203,7 +203,7 @@ impl<'a> UniformGround<'a> {
     }
 
     /// The triangles of a batch that no single sample certainly covers: a bit for each.
-    fn open_of_batch(&self, batch: &mut Group, count: usize, triangle: impl Fn(usize) -> u32) -> u64 {
+    fn open_of_batch(&self, batch: &mut Batch, count: usize, triangle: impl Fn(usize) -> u32) -> u64 {
         let open = self.grid.open_triangles(batch, count, |lane| self.normal(triangle(lane)));
         self.obstacles.open_triangles(open, |lane| self.mesh.corners(triangle(lane)))
     }
@@ -224,12 +224,12 @@ impl<'a> UniformGround<'a> {
     }
 
     /// A whole triangle, and whether it has any area.
-    pub fn whole(&self, triangle: u32) -> (Whole, bool) {
+    pub fn whole(&self, triangle: u32) -> (WholeTriangle, bool) {
         let corners = self.mesh.exact_corners(triangle).map(|corner| self.grid.space.scaled(corner));
         let (area, longest) = self.size(&corners);
         // Only for slivers this depends on the rounding of lengths in radii.
         let has_area = area > 1e-9 * longest * longest || self.mesh.triangle_area(triangle) > 0.0;
-        (Whole { triangle, area: area as f32, longest: longest as f32, local: () }, has_area)
+        (WholeTriangle { triangle, area: area as f32, longest: longest as f32, local: () }, has_area)
     }
 
     /// The corners of a fragment, in the unit of the space.
@@ -270,9 +270,9 @@ impl<'a> UniformGround<'a> {
 
     /// The open parts of some triangles, by their indices.
     pub fn open_triangles(&self, triangles: Triangles, indices: impl Iterator<Item = usize>) -> Open {
-        let (mut open, mut batch, mut numbers, space) = (Open::default(), Group::EMPTY, [0; GROUP], self.grid.space);
+        let (mut open, mut batch, mut numbers, space) = (Open::default(), Batch::EMPTY, [0; BATCH], self.grid.space);
         let mut count = 0;
-        let mut test = |batch: &mut Group, numbers: &[u32]| {
+        let mut test = |batch: &mut Batch, numbers: &[u32]| {
             let mut uncovered = self.open_of_batch(batch, numbers.len(), |lane| numbers[lane]);
             while uncovered != 0 {
                 self.add_open(numbers[uncovered.trailing_zeros() as usize], &mut open);
@@ -283,7 +283,7 @@ impl<'a> UniformGround<'a> {
             numbers[count] = triangles.at(index);
             batch.triangles[count] = space.places(self.mesh.corners(numbers[count]));
             count += 1;
-            if count == GROUP {
+            if count == BATCH {
                 test(&mut batch, &numbers);
                 count = 0;
             }
@@ -357,9 +357,9 @@ impl Ground for UniformGround<'_> {
         self.uncovered(patch.fragment.triangle, &corners, f64::from(patch.longest) / self.per_radius, patch.open)
     }
 
-    fn open_wholes(&self, wholes: &[Whole]) -> u64 {
-        debug_assert!(wholes.len() <= GROUP);
-        let mut batch = Group::EMPTY;
+    fn open_wholes(&self, wholes: &[WholeTriangle]) -> u64 {
+        debug_assert!(wholes.len() <= BATCH);
+        let mut batch = Batch::EMPTY;
         for (lane, whole) in wholes.iter().enumerate() {
             batch.triangles[lane] = self.grid.space.places(self.mesh.corners(whole.triangle));
         }
@@ -449,7 +449,7 @@ impl Layer for UniformGround<'_> {
     }
 }
 
-const _: () = assert!(GROUP == 64, "a bit for each triangle");
+const _: () = assert!(BATCH == 64, "a bit for each triangle");
 
 #[cfg(test)]
 mod tests {
