@@ -12,7 +12,7 @@ use crate::psp::adaptive::ground::GradedGround;
 use crate::psp::adaptive::pieces::{MeasuredTriangles, Piece, pieces};
 use crate::psp::adaptive::set::AdaptiveSet;
 use crate::psp::fill::{
-    FIRST_DARTS, FillOptions, Ground, Kinds, Layer, Open, PROBES_IN_CUBE, Point, Zone, fill_zone, open_share,
+    Alike, FIRST_DARTS, FillOptions, Ground, Kinds, Layer, Open, PROBES_IN_CUBE, Point, Zone, fill_zone, open_share,
     random_point, throw,
 };
 use crate::psp::fragment::Facing;
@@ -123,19 +123,7 @@ pub struct OneKind<'a> {
     pub largest_rank: Option<f64>,
 }
 
-impl Kinds for OneKind<'_> {
-    type Kind = ();
-
-    fn kinds(&self) -> &[()] {
-        &[()]
-    }
-
-    fn random_kind(&self, _: &mut Rng) {}
-
-    fn allows(&self, (): (), _: u32) -> bool {
-        true
-    }
-}
+impl Alike for OneKind<'_> {}
 
 impl GradedSite for OneKind<'_> {
     type Ground<'b>

@@ -206,6 +206,23 @@ pub trait Kinds: Sync {
     fn allows(&self, kind: Self::Kind, triangle: u32) -> bool;
 }
 
+/// A site whose samples are all alike.
+pub trait Alike: Sync {}
+
+impl<T: Alike> Kinds for T {
+    type Kind = ();
+
+    fn kinds(&self) -> &[()] {
+        &[()]
+    }
+
+    fn random_kind(&self, _: &mut Rng) {}
+
+    fn allows(&self, (): (), _: u32) -> bool {
+        true
+    }
+}
+
 /// A surface to be filled with samples of constant radii, the same for all kinds.
 pub trait Site: Kinds {
     type Ground<'a>: Ground<Local = Self::Kind, Sample = Sample> + Sync

@@ -14,7 +14,7 @@ use crate::psp::fill::measures::{Ball, Measures, Triangles};
 use crate::psp::fill::page::{BATCH, Batch};
 use crate::psp::fill::rounds::{Ground, Layer, Open, PATCH, Patch, Point, WHOLE, WholeTriangle};
 use crate::psp::fill::space::Space;
-use crate::psp::fill::{FillOptions, Filled, Kinds, ONE_PIECE, Site, fill};
+use crate::psp::fill::{Alike, FillOptions, Filled, ONE_PIECE, Site, fill};
 use crate::psp::fragment::{Facing, Fragment, NO_NORMAL, SIXTEENTHS, slice};
 use crate::psp::given::{GivenSamples, Obstacles};
 use crate::psp::set::{Sample, SampleSet};
@@ -67,19 +67,7 @@ impl Uniform<'_> {
     }
 }
 
-impl Kinds for Uniform<'_> {
-    type Kind = ();
-
-    fn kinds(&self) -> &[()] {
-        &[()]
-    }
-
-    fn random_kind(&self, _: &mut Rng) {}
-
-    fn allows(&self, (): (), _: u32) -> bool {
-        true
-    }
-}
+impl Alike for Uniform<'_> {}
 
 impl Site for Uniform<'_> {
     type Ground<'b>
