@@ -38,9 +38,17 @@ END
 # Packages of the registry stay as they were compiled.
 crate=profile.dev.package.azulejo
 export CARGO_TARGET_DIR=$work/target
+tests() { # ARGUMENT...
+    cargo test --quiet --locked --package azulejo --config "$crate.debug-assertions=false" \
+        --config "$crate.overflow-checks=false" --config "$crate.opt-level=1" "$@"
+}
+# Before any test, whose time is limited: what is broken may never end.
+tests --lib --test all --no-run
 run() { # AZULEJO_BROKEN ARGUMENT...: runs a test
-    AZULEJO_BROKEN=$1 timeout 600 cargo test --quiet --locked --package azulejo --config "$crate.debug-assertions=false" \
-        --config "$crate.overflow-checks=false" --config "$crate.opt-level=1" "${@:2}" -- --exact >"$work/log" 2>&1
+    (
+        ulimit -t 1200
+        AZULEJO_BROKEN=$1 tests "${@:2}" -- --exact
+    ) >"$work/log" 2>&1
 }
 has_run() { grep -q '^running 1 test$' "$work/log"; }
 
