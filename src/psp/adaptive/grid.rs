@@ -174,7 +174,7 @@ mod tests {
     use crate::mesh::exact;
     use crate::psp::adaptive::field::RadiusField;
     use crate::psp::adaptive::options::Radius;
-    use crate::psp::fill::Group;
+    use crate::psp::fill::Batch;
     use crate::psp::fill::page::WITHIN;
     use crate::psp::fragment::Fragment;
     use crate::rng::{Draw, Rng};
@@ -255,7 +255,7 @@ mod tests {
             };
             let open = open_at(Level::Portable);
             assert!(Level::available().into_iter().all(|level| open_at(level) == open), "vectors find something else");
-            let mut group = Group::<4>::EMPTY;
+            let mut group = Batch::<4>::EMPTY;
             group.triangles[0] = [0, 1, 2].map(|i| grid.ball(mesh.corners(0)[i], radii[i].into()));
             let is_open = grid.pages.open_triangles(&mut group, 1, |_| [0.0; 3]) == 1;
             let share = grid.covering_share(&group.triangles[0], [0.0; 3]);
