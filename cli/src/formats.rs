@@ -7,25 +7,33 @@
 //! | CSV | columns `x,y`, in a cuboid `z`, and perhaps `rank`, `class` under a header | all columns of PLY under a header | - |
 //! | XYZ | lines `x y 0` or `x y z` | lines `x y z nx ny nz` | - |
 //! | raw | `x y` or `x y z` as little-endian floats | - | - |
+//! | USD | points or instances in space | the same with normals | - |
+//! | GLB | instances in space | the same, turned to the normals | - |
+//!
+//! USD and GLB are for scenes: they are written, not read. The others are read, too.
 //!
 //! Input may have more: integers and doubles, big-endian arrays, other columns, comments. The number of dimensions, two
 //! or three, follows from the file, except for raw floats, where the user states it. Ranks are not read: the order of
 //! the points holds the same information.
 
 pub mod columns;
+mod glb;
 #[cfg(test)]
 mod hostile;
 mod npy;
 pub mod points;
 mod raw;
 mod records;
+mod scene;
 pub mod set;
 pub mod surface;
 mod table;
+mod usda;
 
 use std::path::{Path, PathBuf};
 
 use azulejo::{Centred, Domain, Error, Result};
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 use crate::input;
@@ -34,6 +42,7 @@ use crate::ply;
 use columns::write_floats;
 use points::PointTable;
 use records::Records;
+use scene::Scene;
 use set::{PlaneSet, PointSet, SampleSet};
 use surface::SurfaceTable;
 
@@ -55,6 +64,65 @@ pub enum Format {
     Raw,
 }
 
+/// A format of scenes, which are written, not read.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum SceneFormat {
+    /// OpenUSD as text: points whose widths are their radii, with ranks and classes as primvars.
+    Usda,
+    /// OpenUSD as text: instances, with a prototype for each class.
+    UsdaInstances,
+    /// Binary glTF: instances (EXT_mesh_gpu_instancing), with a mesh for each class.
+    Glb,
+}
+
+impl SceneFormat {
+    /// The format that the extension names.
+    fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_string_lossy().to_lowercase().as_str() {
+            "usda" => Some(Self::Usda),
+            "glb" => Some(Self::Glb),
+            _ => None,
+        }
+    }
+}
+
+/// A format that points are written in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Written {
+    Points(Format),
+    Scene(SceneFormat),
+}
+
+impl ValueEnum for Written {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Written; 8] = [
+            Written::Points(Format::Ply),
+            Written::Points(Format::Npy),
+            Written::Points(Format::Csv),
+            Written::Points(Format::Xyz),
+            Written::Points(Format::Raw),
+            Written::Scene(SceneFormat::Usda),
+            Written::Scene(SceneFormat::UsdaInstances),
+            Written::Scene(SceneFormat::Glb),
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Points(format) => format.to_possible_value(),
+            Self::Scene(format) => format.to_possible_value(),
+        }
+    }
+}
+
+impl Written {
+    /// The format that the extension names; PLY if there is none.
+    fn of(path: &Path) -> Result<Self> {
+        SceneFormat::of(path).map_or_else(|| Format::of(path).map(Self::Points), |format| Ok(Self::Scene(format)))
+    }
+}
+
 impl Format {
     /// The format that the extension names; PLY if there is none.
     fn of(path: &Path) -> Result<Self> {
@@ -65,7 +133,13 @@ impl Format {
             "csv" => Ok(Self::Csv),
             "xyz" | "txt" => Ok(Self::Xyz),
             "raw" | "f32" | "bin" => Ok(Self::Raw),
-            _ => Err(format_error(path, "the extension names no format of points: give ply, npy, csv, xyz or raw")),
+            "usda" | "glb" => Err(format_error(path, "scenes are written, not read: give ply, npy, csv, xyz or raw")),
+            other => {
+                let other = shortened(other);
+                let reason =
+                    format!("the extension .{other} names no format of points: give ply, npy, csv, xyz or raw");
+                Err(format_error(path, reason))
+            }
         }
     }
 }
@@ -221,26 +295,26 @@ impl Cloud {
 /// Where points go to.
 #[derive(Args)]
 pub struct Destination {
-    /// The samples: a .ply, .npy, .csv or .xyz file, or .raw unless they lie on a mesh.
+    /// The samples: a .ply, .npy, .csv or .xyz file, or .raw unless they lie on a mesh; or a scene, .usda or .glb.
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// The format of the output [default: by the extension].
     #[arg(long, value_enum, value_name = "FORMAT")]
-    format: Option<Format>,
+    format: Option<Written>,
 }
 
 impl Destination {
     /// Checks before the work whether and how a file of a set of the plane or of a cuboid can be written.
     pub fn open_points(&self) -> Result<PointFile> {
         let output = Output::at(&self.output)?;
-        let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
+        let format = self.format.map_or_else(|| Written::of(&self.output), Ok)?;
         Ok(PointFile { output, format })
     }
 
     /// Checks before the work whether and how a file of a set of the plane of several classes can be written.
     pub fn open_classes(&self) -> Result<PointFile> {
         let file = self.open_points()?;
-        if matches!(file.format, Format::Raw | Format::Xyz) {
+        if matches!(file.format, Written::Points(Format::Raw | Format::Xyz)) {
             let reason = "this format has no place for the classes of samples: give .ply, .npy or .csv";
             return Err(format_error(&self.output, reason));
         }
@@ -250,7 +324,7 @@ impl Destination {
     /// Checks before the work whether and how a file of samples of a surface can be written.
     pub fn open_surface(&self) -> Result<PointFile> {
         let file = self.open_points()?;
-        if file.format == Format::Raw {
+        if file.format == Written::Points(Format::Raw) {
             let reason = "raw floats have no place for the normals, triangles and barycentrics of samples: \
                           give .ply, .npy or .csv, or .xyz for positions and normals";
             return Err(format_error(&self.output, reason));
@@ -262,13 +336,17 @@ impl Destination {
 /// A file of points to be written.
 pub struct PointFile {
     pub output: Output,
-    format: Format,
+    format: Written,
 }
 
 impl PointFile {
     /// Writes a set of the plane or of a cuboid, with its domain and every column that the format has.
     pub fn write_points<const D: usize>(&self, domain: &Domain<D>, table: &PointTable<D>) -> Result<()> {
-        match self.format {
+        let format = match self.format {
+            Written::Points(format) => format,
+            Written::Scene(format) => return self.write_scene(format, &Scene::of_points(table)),
+        };
+        match format {
             Format::Ply => ply::write_points(&self.output, domain, table),
             Format::Npy => self.output.write(|writer| npy::write_points(writer, table)),
             Format::Csv => self.output.write(|writer| table::write_csv_points(writer, table)),
@@ -279,13 +357,25 @@ impl PointFile {
 
     /// Writes samples of a surface, with every column that the format has.
     pub fn write_surface(&self, table: &SurfaceTable) -> Result<()> {
-        match self.format {
+        let format = match self.format {
+            Written::Points(format) => format,
+            Written::Scene(format) => return self.write_scene(format, &Scene::of_surface(table)),
+        };
+        match format {
             Format::Ply => ply::write_surface(&self.output, table),
             Format::Npy => self.output.write(|writer| npy::write_surface(writer, table)),
             Format::Csv => self.output.write(|writer| table::write_csv_surface(writer, table)),
             Format::Xyz => self.output.write(|writer| table::write_xyz_surface(writer, table)),
             Format::Raw => unreachable!("refused by Destination::open_surface"),
         }
+    }
+
+    fn write_scene(&self, format: SceneFormat, scene: &Scene) -> Result<()> {
+        self.output.write(|writer| match format {
+            SceneFormat::Usda => usda::write_points(writer, scene),
+            SceneFormat::UsdaInstances => usda::write_instances(writer, scene),
+            SceneFormat::Glb => glb::write(writer, scene),
+        })
     }
 }
 
@@ -306,6 +396,9 @@ mod tests {
             assert_eq!(Format::of(Path::new(path)).unwrap(), format, "{path}");
         }
         let said = Format::of(Path::new("a.png")).unwrap_err().to_string();
-        assert!(said.starts_with("a.png: the extension names no format"), "{said}");
+        assert!(said.starts_with("a.png: the extension .png names no format"), "{said}");
+        let said = Format::of(Path::new("a.usda")).unwrap_err().to_string();
+        assert!(said.starts_with("a.usda: scenes are written, not read"), "{said}");
+        assert_eq!(Written::of(Path::new("a.GLB")).unwrap(), Written::Scene(SceneFormat::Glb));
     }
 }

@@ -197,3 +197,30 @@ fn a_signal_leaves_no_file_behind() {
         assert!(workshop.files().is_empty(), "{name}: {:?}", workshop.files());
     }
 }
+
+#[test]
+fn scenes_hold_points_or_instances() {
+    let workshop = Workshop::new();
+    workshop.write("roof.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 2 3\nf 1 4 2\n");
+    workshop.succeed(&["surface", "roof.obj", "--radius", "0.25", "-o", "a.csv"]);
+    workshop.succeed(&["surface", "roof.obj", "--radius", "0.25", "-o", "a.usda"]);
+    let rows: Vec<_> = fs::read_to_string(workshop.path("a.csv")).unwrap().lines().skip(1).map(str::to_owned).collect();
+    let points: Vec<_> = rows.iter().map(|row| row.split(',').take(3).collect::<Vec<_>>().join(", ")).collect();
+    let usda = fs::read_to_string(workshop.path("a.usda")).unwrap();
+    let list = |name: &str| {
+        let start = usda.find(&format!(" {name} = [")).unwrap() + name.len() + 5;
+        usda[start..start + usda[start..].find(']').unwrap()].replace(['(', ')'], "").replace("\n       ", "")
+    };
+    assert_eq!(list("points"), points.join(", "));
+    assert_eq!(list("widths"), "0.25");
+    let arguments = ["plane", "--class-radii", "0.05,0.1", "--format", "usda-instances", "-o", "b.usda"];
+    workshop.succeed(&arguments);
+    let usda = fs::read_to_string(workshop.path("b.usda")).unwrap();
+    assert!(usda.contains("def PointInstancer") && usda.contains("def Sphere \"class1\""), "{usda}");
+    workshop.succeed(&["volume", "--radius", "0.2", "--order", "progressive", "-o", "c.glb"]);
+    let glb = fs::read(workshop.path("c.glb")).unwrap();
+    assert!(glb.starts_with(b"glTF") && String::from_utf8_lossy(&glb).contains("EXT_mesh_gpu_instancing"));
+    let said = workshop.refuse(&["relax", "a.usda", "-o", "d.ply"], 1);
+    assert!(said.starts_with("error: a.usda: scenes are written, not read"), "{said}");
+    workshop.refuse(&["relax", "a.csv", "--input-format", "usda", "-o", "d.ply"], 2);
+}

@@ -12,12 +12,14 @@ pub struct PointTable<'a, const D: usize = 2> {
     pub ranks: &'a [f32],
     /// The class of each point, where there are several; otherwise empty.
     pub classes: &'a [u32],
+    /// The radius of each class, or of all points; empty if it is not known. No column: some formats show it as a size.
+    pub class_radii: &'a [f64],
 }
 
 impl<'a, const D: usize> PointTable<'a, D> {
     /// Points of which no more is known.
     pub fn of(points: &'a [[f32; D]]) -> Self {
-        Self { points, ranks: &[], classes: &[] }
+        Self { points, ..Self::default() }
     }
 
     /// The columns that only some sets have.

@@ -83,8 +83,14 @@ pub struct Plane {
     leaf_size: f64,
 }
 
-/// A set, its domain, and the text of the report.
-type Made = (Points<2>, Domain, String);
+/// A set and its domain.
+struct Made {
+    samples: Points<2>,
+    domain: Domain,
+    radius: f64,
+    /// The text of the report.
+    about: String,
+}
 
 impl Plane {
     pub fn run(&self, context: &Context) -> Result<()> {
@@ -93,13 +99,14 @@ impl Plane {
         }
         let output = self.common.destination.open_points()?;
         let start = Instant::now();
-        let (made, domain, about) = match self.density.count {
+        let Made { samples, domain, radius, about } = match self.density.count {
             Some(count) => self.exactly(count, context)?,
             None => self.at(self.density.radius.unwrap_or(f64::NAN), context)?,
         };
         let seconds = start.elapsed().as_secs_f64();
-        output.write_points(&domain, &PointTable { ranks: &made.ranks, ..PointTable::of(&made.positions) })?;
-        report(&output.output, made.len(), &about, seconds);
+        let table = PointTable { ranks: &samples.ranks, class_radii: &[radius], ..PointTable::of(&samples.positions) };
+        output.write_points(&domain, &table)?;
+        report(&output.output, samples.len(), &about, seconds);
         Ok(())
     }
 
@@ -126,10 +133,10 @@ impl Plane {
         if let Some(window) = self.window() {
             let sample =
                 |progress: &Progress| kdrt::sample_window(context, &options, window.min, window.max, Some(progress));
-            return Ok((self.blaming(watched("plane", sample))?, window, about));
+            return Ok(Made { samples: self.blaming(watched("plane", sample))?, domain: window, radius, about });
         }
-        let made = self.blaming(watched("plane", |progress| kdrt::sample(context, &options, Some(progress))))?;
-        Ok((made, domain, about))
+        let samples = self.blaming(watched("plane", |progress| kdrt::sample(context, &options, Some(progress))))?;
+        Ok(Made { samples, domain, radius, about })
     }
 
     /// The given points.
@@ -176,8 +183,9 @@ impl Plane {
             }
         };
         let seconds = start.elapsed().as_secs_f64();
-        output
-            .write_points(&domain, &PointTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes })?;
+        let own: Vec<_> = (0..classes.count()).map(|class| classes.radius(class, class)).collect();
+        let table = PointTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes, class_radii: &own };
+        output.write_points(&domain, &table)?;
         report(&output.output, set.len(), &shares(classes, &set), seconds);
         Ok(())
     }
@@ -187,12 +195,12 @@ impl Plane {
         let domain = self.domain.or_unit();
         let options = CountOptions::new(count).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
         let options = options.levels(self.levels());
-        let (made, about) = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
+        let (samples, done) = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
         // Progressive sets are maximal at their levels only.
-        let is_fault = !about.is_maximal && options.levels.is_none();
+        let is_fault = !done.is_maximal && options.levels.is_none();
         let maximal = if is_fault { ", not maximal" } else { "" };
-        let about = format!("radius {}{maximal}", rounded(about.radius, 4));
-        Ok((made, domain, about))
+        let about = format!("radius {}{maximal}", rounded(done.radius, 4));
+        Ok(Made { samples, domain, radius: done.radius, about })
     }
 }
 

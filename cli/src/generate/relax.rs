@@ -96,7 +96,11 @@ impl Relax {
         };
         let (relaxed, done, each) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
-        let table = PointTable { classes: classes.unwrap_or_default(), ..PointTable::of(&relaxed) };
+        let table = PointTable {
+            classes: classes.unwrap_or_default(),
+            class_radii: &[done.smallest_distance],
+            ..PointTable::of(&relaxed)
+        };
         output.write_points(&domain, &table)?;
         let of_classes: Vec<_> = each.iter().map(|class| rounded(class.rho, 3)).collect();
         let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" / ")) };
@@ -141,7 +145,13 @@ impl Relax {
         .map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
         let normals = &relaxed.normals;
-        output.write_surface(&SurfaceTable { samples: &relaxed, normals, radii: None, origin: mesh.origin() })?;
+        output.write_surface(&SurfaceTable {
+            samples: &relaxed,
+            normals,
+            radii: None,
+            class_radii: &[done.smallest_distance],
+            origin: mesh.origin(),
+        })?;
         report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
         remeshed.map_or(Ok(()), |output| write_remeshed(context, &mesh, &relaxed, &output))
     }

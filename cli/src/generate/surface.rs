@@ -185,6 +185,8 @@ enum Normals {
 struct Made {
     samples: Points<3>,
     radii: Option<Vec<f64>>,
+    /// The radius of each class, or of all samples, where `radii` has none.
+    class_radii: Vec<f64>,
     about: String,
     seconds: f64,
 }
@@ -212,7 +214,7 @@ impl Surface {
             }
             (None, None) => self.uniform(context, mesh, around.given()),
         };
-        let Made { samples, radii, about, seconds } = made.map_err(|error| match &self.given {
+        let Made { samples, radii, class_radii, about, seconds } = made.map_err(|error| match &self.given {
             Some(path) => blame(path, error),
             None => error,
         })?;
@@ -220,7 +222,13 @@ impl Surface {
             Normals::Geometric => &samples.normals,
             Normals::Interpolated => &samples.interpolated_normals,
         };
-        output.write_surface(&SurfaceTable { samples: &samples, normals, radii: radii.as_deref(), origin })?;
+        output.write_surface(&SurfaceTable {
+            samples: &samples,
+            normals,
+            radii: radii.as_deref(),
+            class_radii: &class_radii,
+            origin,
+        })?;
         report(&output.output, samples.len(), &about, seconds);
         Ok(())
     }
@@ -267,7 +275,7 @@ impl Surface {
             _ => String::new(),
         };
         let about = format!("radius {}{covered}", rounded(done.radius, 4));
-        Ok(Made { samples, radii: None, about, seconds: done.seconds })
+        Ok(Made { samples, radii: None, class_radii: vec![done.radius], about, seconds: done.seconds })
     }
 
     /// The bits of the classes that each triangle may have.
@@ -317,7 +325,7 @@ impl Surface {
         let at_density = if attribute.is_some() { " at density 1" } else { "" };
         let each = |class: usize| format!("{} of radius {}{at_density}", count(class), rounded(own[class], 4));
         let about = (0..own.len()).map(each).collect::<Vec<_>>().join(", ");
-        Ok(Made { samples, radii, about, seconds: done.seconds })
+        Ok(Made { samples, radii, class_radii: own.to_vec(), about, seconds: done.seconds })
     }
 
     /// Samples whose radii are interpolated from an attribute of the vertices or, with a scale, follow from the density
@@ -352,7 +360,7 @@ impl Surface {
         };
         let about = format!("radii {least} to {largest}{unit}");
         let radii = std::mem::take(&mut made.radii);
-        Ok(Made { samples: made, radii: Some(radii), about, seconds: done.seconds })
+        Ok(Made { samples: made, radii: Some(radii), class_radii: Vec::new(), about, seconds: done.seconds })
     }
 }
 

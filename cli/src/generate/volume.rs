@@ -73,7 +73,10 @@ impl Volume {
             Some(path) => blame(path, error),
             None => error,
         })?;
-        output.write_points(&domain, &PointTable { ranks: &samples.ranks, ..PointTable::of(&samples.positions) })?;
+        output.write_points(
+            &domain,
+            &PointTable { ranks: &samples.ranks, class_radii: &[done.radius], ..PointTable::of(&samples.positions) },
+        )?;
         let covered = if done.covering_radius > done.radius {
             format!(", covered within {}", rounded(done.covering_radius, 4))
         } else {

@@ -59,7 +59,13 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         radii: Vec::new(),
         ids: Vec::new(),
     };
-    let table = |radii| SurfaceTable { samples: &samples, normals: &samples.normals, radii, origin: [0.0; 3] };
+    let table = |radii| SurfaceTable {
+        samples: &samples,
+        normals: &samples.normals,
+        radii,
+        class_radii: &[],
+        origin: [0.0; 3],
+    };
     for radii in [None, Some(&[0.5, 2.0][..])] {
         let mut written = Vec::new();
         write_surface(&mut written, &table(radii)).unwrap();
