@@ -124,7 +124,7 @@ mod tests {
         let mut groups: Vec<f64> = own.to_vec();
         groups.sort_by(|a, b| b.total_cmp(a));
         groups.dedup();
-        let (mut matrix, mut density, mut processed) = (vec![0.0; own.len().pow(2)], 0.0, Vec::new());
+        let (mut matrix, mut density, mut processed) = (vec![0.0; own.len().pow(2)], 0.0, Vec::<usize>::new());
         for radius in groups {
             let group: Vec<usize> = (0..own.len()).filter(|&i| own[i] == radius).collect();
             processed.extend(&group);

@@ -164,7 +164,7 @@ mod tests {
                     assert!(boundary == Boundary::Bounded || is_alone || tiles.counts[axis] % 2 == 0);
                 }
             }
-            assert_eq!(area, tiles.lattice.size.into_iter().map(i64::from).product());
+            assert_eq!(area, tiles.lattice.size.into_iter().map(i64::from).product::<i64>());
         }
     }
 

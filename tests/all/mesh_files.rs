@@ -433,6 +433,8 @@ fn vertices_far_from_the_origin_keep_their_places_in_all_formats() {
         files.load("c.ply", text),
         files.load("d.ply", binary),
         files.load("e.stl", format!("solid a\n{stl}endsolid a\n")),
+        files.load("f.off", format!("OFF\n6 2 0\n{}3 0 1 2\n3 3 4 5\n", lines("").concat())),
+        files.load("off", format!("OFF 6 2 0\n{}3 0 1 2\n3 3 4 5\n", lines("").concat())),
         Mesh::parse("-", format!("solid a\n{stl}endsolid a\n").as_bytes()).unwrap(),
     ];
     for mesh in &meshes {

@@ -454,7 +454,7 @@ mod tests {
         let image = Image::new(&values, [3, 2]);
         for (i, &value) in values.iter().enumerate() {
             let centre = [((i % 3) as f64 + 0.5) / 3.0, ((i / 3) as f64 + 0.5) / 2.0];
-            assert_eq!(image.at(centre), value.into());
+            assert_eq!(image.at(centre), f64::from(value));
             assert_eq!(image.at([centre[0] + 7.0, centre[1] - 2.0]), f64::from(value));
         }
         assert_eq!(image.at([1.0 / 3.0, 0.25]), 0.5);

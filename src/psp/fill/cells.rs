@@ -110,7 +110,7 @@ mod tests {
         let space = Space::new(&mesh, 1.0);
         let mut extent = Extent::EMPTY;
         corners.iter().for_each(|&corner| extent.add(corner));
-        let (mut box_, mut table) = (Cells::<u32>::around(&extent, &space), Cells::anywhere());
+        let (mut box_, mut table) = (Cells::<u32>::around(&extent, &space), Cells::<u32>::anywhere());
         assert!(matches!(box_.slots, Slots::Box(_)) && matches!(table.slots, Slots::Anywhere(_)));
         let range = box_.clip([[0; 3], [1 << 20; 3]]);
         assert_eq!(
