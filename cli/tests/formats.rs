@@ -213,7 +213,7 @@ fn scenes_hold_points_or_instances() {
     };
     assert_eq!(list("points"), points.join(", "));
     assert_eq!(list("widths"), "0.25");
-    let arguments = ["plane", "--class-radii", "0.05,0.1", "--format", "usda-instances", "-o", "b.usda"];
+    let arguments = ["plane", "--classes", "0.05,0.1", "--format", "usda-instances", "-o", "b.usda"];
     workshop.succeed(&arguments);
     let usda = fs::read_to_string(workshop.path("b.usda")).unwrap();
     assert!(usda.contains("def PointInstancer") && usda.contains("def Sphere \"class1\""), "{usda}");
