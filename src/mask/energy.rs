@@ -112,6 +112,11 @@ impl Energy {
         self.is_set[pixel]
     }
 
+    /// For every pixel whether it is set.
+    pub fn pattern(&self) -> &[bool] {
+        &self.is_set
+    }
+
     /// The energies of all pixels.
     pub fn energies(&self) -> &[u32] {
         &self.energies

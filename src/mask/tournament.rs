@@ -31,14 +31,21 @@ pub struct Tournament {
     is_bound: Vec<bool>,
 }
 
-/// The key of a pixel, less for one that is nearer to the extreme; among equal energies the least tie is taken.
-fn key(extreme: Extreme, energy: &Energy, ties: &[u32], pixel: usize) -> u64 {
-    let value = energy.energies()[pixel];
-    let (takes_part, value) = match extreme {
-        Extreme::Void => (!energy.is_set(pixel), value),
-        Extreme::Cluster => (energy.is_set(pixel), !value),
+/// The keys of pixels, less for one that is nearer to the extreme; among equal energies the least tie is taken.
+#[inline]
+fn keys<'a>(
+    extreme: Extreme,
+    energy: &'a Energy,
+    ties: &'a [u32],
+    pixels: std::ops::Range<usize>,
+) -> impl Iterator<Item = u64> + 'a {
+    // The energies of clusters are complemented, so that the most is the least.
+    let (part, flipped) = if extreme == Extreme::Void { (false, 0) } else { (true, u32::MAX) };
+    let (pattern, energies) = (&energy.pattern()[pixels.clone()], &energy.energies()[pixels.clone()]);
+    let key = move |((&is_set, &value), &tie): ((&bool, &u32), &u32)| {
+        if is_set == part { u64::from(value ^ flipped) << 32 | u64::from(tie) } else { OUT }
     };
-    if takes_part { u64::from(value) << 32 | u64::from(ties[pixel]) } else { OUT }
+    pattern.iter().zip(energies).zip(&ties[pixels]).map(key)
 }
 
 impl Tournament {
@@ -61,7 +68,7 @@ impl Tournament {
 
     /// The least key of a segment.
     fn least(&self, energy: &Energy, ties: &[u32], segment: usize) -> u64 {
-        Self::pixels(energy, segment).map(|pixel| key(self.extreme, energy, ties, pixel)).min().unwrap_or(OUT)
+        keys(self.extreme, energy, ties, Self::pixels(energy, segment)).min().unwrap_or(OUT)
     }
 
     /// Takes note of the last change of the pattern: a pixel was set (true), or cleared.
@@ -107,7 +114,9 @@ impl Tournament {
             }
             let segment = node - leaves;
             if !self.is_bound[segment] {
-                return Self::pixels(energy, segment).find(|&pixel| key(self.extreme, energy, ties, pixel) == least);
+                let pixels = Self::pixels(energy, segment);
+                let place = keys(self.extreme, energy, ties, pixels.clone()).position(|key| key == least);
+                return place.map(|place| pixels.start + place);
             }
             self.renew(energy, ties, segment);
         }

@@ -34,12 +34,12 @@ fn transform(values: &mut [Complex], size: [usize; 3], axis: usize) {
     }
 }
 
-/// The mean power of a pattern at frequencies up to `share` of its principal one, sqrt(density) cycles per pixel in the plane
-/// and its cubic root in space (Ulichney 1988), the constant left out. 1 is that of independent random pixels.
+/// The mean power of a pattern at frequencies up to `share` of its principal one, the constant left out: sqrt(density) cycles per
+/// pixel in the plane, its cubic root in space, at most half (Ulichney 1988). 1 is that of independent random pixels.
 fn low_power(size: [usize; 3], pattern: &[bool], share: f64) -> f64 {
     let density = pattern.iter().filter(|&&set| set).count() as f64 / pattern.len() as f64;
     let minority = density.min(1.0 - density);
-    let principal = if size[2] > 1 { minority.cbrt() } else { minority.sqrt() };
+    let principal = if size[2] > 1 { minority.cbrt() } else { minority.sqrt() }.min(0.5);
     let mut values: Vec<Complex> = pattern.iter().map(|&set| [f64::from(u8::from(set)) - density, 0.0]).collect();
     (0..3).filter(|&axis| size[axis] > 1).for_each(|axis| transform(&mut values, size, axis));
     let frequency = |i: usize| {
@@ -90,11 +90,11 @@ fn patterns_of_all_densities_have_hardly_any_power_at_low_frequencies() {
     {
         let masks: Vec<Mask> =
             (0..3).map(|seed| made(&Options::new(size[0], size[1]).depth(size[2]).seed(seed).sigma(sigma))).collect();
-        for share in [0.1, 0.25, 0.5, 0.75, 0.9] {
+        for (share, most) in [(0.01, 0.4), (0.1, 0.2), (0.25, 0.2), (0.5, 0.2), (0.75, 0.2), (0.9, 0.2)] {
             let powers = masks.iter().map(|mask| low_power(size, &below(mask.channel(0), share), 0.5));
             let power = powers.sum::<f64>() / 3.0;
             println!("{size:?} sigma {sigma}, {share}: {power:.4}");
-            assert!(power < 0.1, "{size:?} {sigma} {share}: {power}");
+            assert!(power < most, "{size:?} {sigma} {share}: {power}");
         }
     }
 }

@@ -85,7 +85,7 @@ static void dithers(void) {
     azulejo_mask_free(mask);
 }
 
-static int cancels(void *user, double fraction) {
+static uint32_t cancels(void *user, double fraction) {
     (void)user;
     return fraction > 0.3;
 }
