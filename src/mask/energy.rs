@@ -108,10 +108,6 @@ impl Energy {
         self.is_set.len()
     }
 
-    pub fn is_set(&self, pixel: usize) -> bool {
-        self.is_set[pixel]
-    }
-
     /// For every pixel whether it is set.
     pub fn pattern(&self) -> &[bool] {
         &self.is_set

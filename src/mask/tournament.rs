@@ -130,7 +130,7 @@ mod tests {
 
     /// A full scan.
     fn scan(extreme: Extreme, energy: &Energy, ties: &[u32]) -> Option<usize> {
-        (0..energy.pixels()).filter(|&p| energy.is_set(p) == (extreme == Extreme::Cluster)).min_by_key(|&p| {
+        (0..energy.pixels()).filter(|&p| energy.pattern()[p] == (extreme == Extreme::Cluster)).min_by_key(|&p| {
             let e = i64::from(energy.energies()[p]);
             (if extreme == Extreme::Void { e } else { -e }, ties[p], p)
         })
@@ -153,7 +153,7 @@ mod tests {
                     Some(extreme) if change % 3 == 0 => extreme,
                     _ => rng.below(energy.pixels() as u64) as usize,
                 };
-                let was_set = !energy.is_set(pixel);
+                let was_set = !energy.pattern()[pixel];
                 if was_set {
                     energy.set(pixel)
                 } else {
