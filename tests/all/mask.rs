@@ -21,7 +21,7 @@ fn transform(values: &mut [Complex], size: [usize; 3], axis: usize) {
     let length = size[axis];
     let turns: Vec<Complex> =
         (0..length).map(|k| TAU * k as f64 / length as f64).map(|angle| [angle.cos(), -angle.sin()]).collect();
-    for first in (0..values.len()).filter(|i| i / stride % length == 0) {
+    for first in (0..values.len()).filter(|i| (i / stride).is_multiple_of(length)) {
         let line: Vec<Complex> = (0..length).map(|k| values[first + k * stride]).collect();
         for k in 0..length {
             let term = |(j, [re, im]): (usize, &Complex)| {
