@@ -42,10 +42,11 @@
  *   samples of a cuboid                           azulejo_volume_sample
  *   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_mesh_coverage,
  *                                                 azulejo_spectrum_create
+ *   a blue-noise mask, to dither or per pixel     azulejo_mask_create
  *   the slow unbiased reference                   azulejo_maximal_sample
  *
- * azulejo/base.h has what all calls share; azulejo/kdrt.h, psp.h, volume.h, dcr.h, thin.h and
- * analysis.h have the calls, each with its options before it. Each can be included alone. The
+ * azulejo/base.h has what all calls share; azulejo/kdrt.h, psp.h, volume.h, dcr.h, thin.h, mask.h
+ * and analysis.h have the calls, each with its options before it. Each can be included alone. The
  * guide is docs/integrating.md, a table of all options docs/options.md.
  *
  * The following holds for every function; their texts state exceptions only.
@@ -88,12 +89,13 @@
  *   Invalid pointers that are aligned, and counts that exceed an array, cannot be detected.
  *
  * Handles. azulejo_context, azulejo_kdrt, azulejo_plane, azulejo_mesh, azulejo_psp,
- *   azulejo_points, azulejo_selection, azulejo_spectrum and azulejo_differences are made by the
- *   library. The caller owns them and frees each with its own _free function, which allows NULL.
- *   They may be freed in any order: a handle keeps what it needs of another one. Pointers into a
- *   handle are valid until it is freed. Accessors return 0 or NULL for NULL. A handle of another
- *   type is always refused, a freed one as long as its memory has not been used again; accessors
- *   then return 0 or NULL, _free functions do nothing, and both set the last error.
+ *   azulejo_points, azulejo_selection, azulejo_mask, azulejo_spectrum and azulejo_differences are
+ *   made by the library. The caller owns them and frees each with its own _free function, which
+ *   allows NULL. They may be freed in any order: a handle keeps what it needs of another one.
+ *   Pointers into a handle are valid until it is freed. Accessors return 0 or NULL for NULL. A
+ *   handle of another type is always refused, a freed one as long as its memory has not been used
+ *   again; accessors then return 0 or NULL, _free functions do nothing, and both set the last
+ *   error.
  *
  * Structs with a struct_size can grow. Their _init function must fill them before use; it takes
  *   sizeof the struct as struct_size, and writes the defaults to options and zeros to reports. An
@@ -122,13 +124,13 @@
  *   the library with the same context.
  *
  * Threads. Every function may be called from any thread at any time. Several threads may use one
- *   context at once, make windows of one plane, and read one mesh, set of points, selection,
- *   spectrum or differences: these do not change. A psp or plane handle serves one changing call at
- *   a time. A handle must not be freed while another thread uses it. The last error belongs to the
- *   thread that made the call. After fork, in the child, contexts with more than one thread and psp
- *   and plane handles made with them return AZULEJO_ERROR_THREADS; they can still be freed. Windows
- *   of planes, contexts of one thread, and contexts made after the fork work. If the process used
- *   Embree before it forked, the child should use AZULEJO_ENGINE_RASTERISER.
+ *   context at once, make windows of one plane, and read one mesh, set of points, selection, mask,
+ *   spectrum or differences: these do not change. A psp or plane handle serves one changing call
+ *   at a time. A handle must not be freed while another thread uses it. The last error belongs to
+ *   the thread that made the call. After fork, in the child, contexts with more than one thread
+ *   and psp and plane handles made with them return AZULEJO_ERROR_THREADS; they can still be
+ *   freed. Windows of planes, contexts of one thread, and contexts made after the fork work. If
+ *   the process used Embree before it forked, the child should use AZULEJO_ENGINE_RASTERISER.
  *
  * Determinism. The same options and seed give the same bytes, for every number of threads and
  *   whatever was called before, on every processor and system. Only sets by
@@ -159,6 +161,7 @@
 #include "azulejo/volume.h"
 #include "azulejo/dcr.h"
 #include "azulejo/thin.h"
+#include "azulejo/mask.h"
 #include "azulejo/analysis.h"
 
 #endif

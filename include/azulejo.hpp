@@ -856,6 +856,8 @@ using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surfa
 /// See azulejo_volume_options; `radius` or `count` is to be set.
 using VolumeOptions =
     GivenOptions<Options<azulejo_volume_options, azulejo_volume_options_init>, 3>;
+/// See azulejo_mask_options; `width` and `height` have no defaults.
+using MaskOptions = Options<azulejo_mask_options, azulejo_mask_options_init>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
 using ThinOptions = Options<azulejo_thin_options, azulejo_thin_options_init>;
 
@@ -988,6 +990,7 @@ struct Report : C {
 using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
 using ClassesReport = Report<azulejo_classes_report, azulejo_classes_report_init>;
 using VolumeReport = Report<azulejo_volume_report, azulejo_volume_report_init>;
+using MaskReport = Report<azulejo_mask_report, azulejo_mask_report_init>;
 using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
 using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
@@ -1688,6 +1691,66 @@ inline Status try_kdrt_merge(const Context &context, const KdrtMergeOptions &opt
     });
 }
 
+/// A blue-noise mask; see azulejo_mask.
+class Mask : public Owner<azulejo_mask, azulejo_mask_free> {
+public:
+    using Owner::Owner;
+
+    /// The pixels along x, y and z; see azulejo_mask_size.
+    std::size_t width() const noexcept { return azulejo_mask_size(get(), 0); }
+    std::size_t height() const noexcept { return azulejo_mask_size(get(), 1); }
+    std::size_t depth() const noexcept { return azulejo_mask_size(get(), 2); }
+    /// The number of channels; see azulejo_mask_channels.
+    std::size_t channels() const noexcept { return azulejo_mask_channels(get()); }
+    /// The ranks, channel by channel; see azulejo_mask_ranks.
+    Span<const std::uint32_t> ranks() const & noexcept {
+        return {azulejo_mask_ranks(get()), channels() * width() * height() * depth()};
+    }
+    Span<const std::uint32_t> ranks() const && = delete;
+    /// The ranks as numbers in (0, 1), into an array of as many; see azulejo_mask_values.
+    Status try_values(Span<float> out) const {
+        if (out.size() != ranks().size()) return refusal("out: has another size");
+        return Status(azulejo_mask_values(get(), out.data()));
+    }
+    /// An image of the plane in few levels; `out` has as many numbers as `image`. See
+    /// azulejo_mask_dither.
+    Status try_dither(Span<const float> image, std::size_t image_width, std::size_t image_channels,
+                      std::uint32_t levels, Span<std::uint8_t> out) const {
+        return dithered(azulejo_mask_dither, image, image_width, image_channels, levels, out);
+    }
+    /// The same for numbers from 0 to 255; see azulejo_mask_dither_bytes.
+    Status try_dither(Span<const std::uint8_t> image, std::size_t image_width,
+                      std::size_t image_channels, std::uint32_t levels,
+                      Span<std::uint8_t> out) const {
+        return dithered(azulejo_mask_dither_bytes, image, image_width, image_channels, levels, out);
+    }
+
+private:
+    static Status refusal(const char *message) {
+        return Status(AZULEJO_ERROR_INVALID_ARGUMENT, message);
+    }
+    template <class T, class Call>
+    Status dithered(Call call, Span<const T> image, std::size_t image_width,
+                    std::size_t image_channels, std::uint32_t levels,
+                    Span<std::uint8_t> out) const {
+        if (out.size() != image.size()) return refusal("out: has another size");
+        const std::size_t row = image_width * image_channels;
+        if (row == 0 || image.size() % row != 0) {
+            return refusal("image: is no whole number of rows");
+        }
+        return Status(call(get(), image.data(), image_width, image.size() / row, 1, image_channels,
+                           levels, out.data()));
+    }
+};
+
+/// A blue-noise mask by void and cluster; see azulejo_mask_create.
+inline Status try_mask_create(const Context &context, const MaskOptions &options, Mask &out,
+                              MaskReport *report = nullptr) {
+    return detail::make(out, [&](auto **mask) {
+        return azulejo_mask_create(context.get(), &options, mask, report);
+    });
+}
+
 /// Points of a cloud that were selected; see azulejo_selection.
 class Selection : public Owner<azulejo_selection, azulejo_selection_free> {
 public:
@@ -2294,6 +2357,13 @@ inline Points kdrt_merge(const Context &context, const KdrtMergeOptions &options
     Points points;
     check(try_kdrt_merge(context, options, pieces, fixed, points, report));
     return points;
+}
+
+inline Mask mask_create(const Context &context, const MaskOptions &options,
+                        MaskReport *report = nullptr) {
+    Mask mask;
+    check(try_mask_create(context, options, mask, report));
+    return mask;
 }
 
 inline Selection plane_thin(const Context &context, const ThinOptions &options,

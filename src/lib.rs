@@ -7,6 +7,7 @@
 //! | [`dcr`] | a point set, in the plane or on a mesh, relaxed by distance constraints | thesis ch. 4 |
 //! | [`mod@thin`] | some points of a cloud, far from each other and near to all the others | Gonzalez 1985 |
 //! | [`volume`] | maximal Poisson-disk sets of cuboids | Ebeida et al. 2012 |
+//! | [`mask`] | blue-noise masks: images of ranks, for dithering and for a sample per pixel | Ulichney 1993 |
 //! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
 //! | [`analysis`] | spacing, coverage, spectra, distances, triangles and bond order of any set | |
 //!
@@ -56,6 +57,7 @@ mod job;
 pub mod kdrt;
 mod kept;
 mod levels;
+pub mod mask;
 mod math;
 pub mod maximal;
 mod memory;

@@ -60,6 +60,8 @@ pub(crate) enum Draw {
     Volume,
     /// PSP: the shift of the blocks of local projectors, and the turns and shifts of their patterns.
     Charts,
+    /// Masks: the initial pattern of a channel, and what decides between pixels of equal energy.
+    Mask,
 }
 
 /// The stream of random numbers of one place.

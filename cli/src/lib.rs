@@ -10,6 +10,7 @@ pub mod draw;
 mod formats;
 mod generate;
 mod input;
+mod mask;
 mod merge;
 #[cfg(test)]
 mod option_table;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use azulejo::{Context, Result};
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::{analyze, draw, generate, merge, output, procedural, shell, stipple, thin};
+use crate::{analyze, draw, generate, mask, merge, output, procedural, shell, stipple, thin};
 
 /// The text at the end of the help of all commands.
 const AFTERWARDS: &str = "\
@@ -16,6 +16,7 @@ Examples:
   azulejo surface bunny.obj --radius 0.002 -o samples.ply
   azulejo volume --count 65536 --box 0 0 0 2 1 1 -o points.ply
   azulejo thin cloud.ply --count 100000 -o thinned.ply
+  azulejo mask --width 64 --height 64 --dither photo.png -o halftone.png
   azulejo analyze relaxed.csv --plots plots
 
 Files of points are PLY (.ply), NumPy arrays (.npy), text (.csv, .xyz, .txt) or little-endian 32-bit floats (.raw, .f32, .bin). \
@@ -51,6 +52,8 @@ enum Command {
     Merge(merge::Merge),
     /// Select points of a cloud that are far from each other, by number or by distance.
     Thin(thin::Thin),
+    /// Make a blue-noise mask (void and cluster), or dither an image with one.
+    Mask(mask::Masking),
     /// Measure sets of the plane or samples of a mesh: a table, JSON, plots.
     Analyze(analyze::Analyze),
     /// Stipple an image: dots, denser where it is darker (PSP, DCR).
@@ -75,6 +78,7 @@ fn run(cli: &Cli) -> Result<()> {
         Command::Relax(relax) => relax.run(&context),
         Command::Merge(merge) => merge.run(&context),
         Command::Thin(thin) => thin.run(&context),
+        Command::Mask(mask) => mask.run(&context),
         Command::Analyze(analyze) => analyze.run(&context),
         Command::Stipple(stipple) => stipple.run(&context),
         Command::Mesh(procedural) => procedural.run(),

@@ -24,6 +24,7 @@ use azulejo::analysis::spectrum::{periodogram, sparse_periodogram};
 use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
 use azulejo::dcr::{self, DelaunayOptions, Neighbourhood, Stopped};
 use azulejo::kdrt::{self, CountOptions, MergeOptions, Piece, Plane, Progressive};
+use azulejo::mask;
 use azulejo::maximal;
 use azulejo::mesh::Mesh;
 use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
@@ -276,6 +277,20 @@ const PLANE: &[Call] = &[
         refused: &[
             ("radius: ", |c, p| said(maximal::sample(c, &maximal::Options::new(f64::INFINITY), p))),
             ("domain_max: ", |c, p| said(maximal::sample(c, &maximal::Options::new(0.1).domain(SWAPPED), p))),
+        ],
+    },
+    Call {
+        name: "mask::create",
+        reports: 4,
+        run: |c, p| samples(mask::create(c, &mask::Options::new(70, 66).channels(3), p)),
+        refused: &[
+            ("width: 1 ", |c, p| samples(mask::create(c, &mask::Options::new(1, 64), p))),
+            ("height: 1025 ", |c, p| samples(mask::create(c, &mask::Options::new(2, 1025), p))),
+            ("width: 65 ", |c, p| samples(mask::create(c, &mask::Options::new(65, 64).depth(2), p))),
+            ("depth: 0 ", |c, p| samples(mask::create(c, &mask::Options::new(8, 8).depth(0), p))),
+            ("channels: 0 ", |c, p| samples(mask::create(c, &mask::Options::new(8, 8).channels(0), p))),
+            ("sigma: NaN ", |c, p| samples(mask::create(c, &mask::Options::new(8, 8).sigma(f64::NAN), p))),
+            ("sigma: inf ", |c, p| samples(mask::create(c, &mask::Options::new(8, 8).sigma(f64::INFINITY), p))),
         ],
     },
     Call {

@@ -36,9 +36,9 @@ const IN_CIRCLES: &[&str] = &[];
 
 /// The modules of the crate: each imports only from those before it.
 const ORDER: &[&str] = &[
-    "error", "host", "setters", "math", "check", "centred", "rng", "simd", "memory", "kept", "job", "points", "order",
-    "given", "region", "classes", "levels", "mesh", "index", "editable", "geometry", "plane", "maximal", "kdrt",
-    "volume", "trace", "psp", "thin", "dcr", "analysis",
+    "error", "host", "setters", "math", "check", "centred", "rng", "simd", "memory", "kept", "job", "mask", "points",
+    "order", "given", "region", "classes", "levels", "mesh", "index", "editable", "geometry", "plane", "maximal",
+    "kdrt", "volume", "trace", "psp", "thin", "dcr", "analysis",
 ];
 
 /// A file of src/ without its unit tests.

@@ -37,6 +37,7 @@ mod kdrt_merge;
 mod kdrt_merge_arguments;
 mod kdrt_relative;
 mod kdrt_window;
+mod mask;
 mod maximal;
 mod mesh;
 mod mesh_attributes;

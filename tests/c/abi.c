@@ -119,6 +119,24 @@ FIELD(azulejo_volume_report, radius, 16);
 FIELD(azulejo_volume_report, seconds, 24);
 FIELD(azulejo_volume_report, covering_radius, 32);
 
+SIZE(azulejo_mask_options, 64);
+FIELD(azulejo_mask_options, struct_size, 0);
+FIELD(azulejo_mask_options, channels, 4);
+FIELD(azulejo_mask_options, width, 8);
+FIELD(azulejo_mask_options, height, 16);
+FIELD(azulejo_mask_options, depth, 24);
+FIELD(azulejo_mask_options, seed, 32);
+FIELD(azulejo_mask_options, sigma, 40);
+FIELD(azulejo_mask_options, progress, 48);
+FIELD(azulejo_mask_options, progress_user, 56);
+
+SIZE(azulejo_mask_report, 32);
+FIELD(azulejo_mask_report, struct_size, 0);
+FIELD(azulejo_mask_report, reserved, 4);
+FIELD(azulejo_mask_report, pixels, 8);
+FIELD(azulejo_mask_report, moves, 16);
+FIELD(azulejo_mask_report, seconds, 24);
+
 SIZE(azulejo_thin_report, 32);
 FIELD(azulejo_thin_report, struct_size, 0);
 FIELD(azulejo_thin_report, reserved, 4);
@@ -447,6 +465,16 @@ static void signatures(void) {
     azulejo_status (*volume_report_init)(azulejo_volume_report *, size_t) = azulejo_volume_report_init;
     azulejo_status (*volume_sample)(const azulejo_context *, const azulejo_volume_options *, azulejo_points **,
                                     azulejo_volume_report *) = azulejo_volume_sample;
+    azulejo_status (*mask_create)(const azulejo_context *, const azulejo_mask_options *, azulejo_mask **,
+                                  azulejo_mask_report *) = azulejo_mask_create;
+    size_t (*mask_size)(const azulejo_mask *, uint32_t) = azulejo_mask_size;
+    const uint32_t *(*mask_ranks)(const azulejo_mask *) = azulejo_mask_ranks;
+    azulejo_status (*mask_values)(const azulejo_mask *, float *) = azulejo_mask_values;
+    azulejo_status (*mask_dither)(const azulejo_mask *, const float *, size_t, size_t, size_t, size_t, uint32_t,
+                                  uint8_t *) = azulejo_mask_dither;
+    azulejo_status (*mask_dither_bytes)(const azulejo_mask *, const uint8_t *, size_t, size_t, size_t, size_t, uint32_t,
+                                        uint8_t *) = azulejo_mask_dither_bytes;
+    void (*mask_free)(azulejo_mask *) = azulejo_mask_free;
     azulejo_status (*thin)(const azulejo_context *, const azulejo_thin_options *, const float *, size_t, uint32_t,
                            azulejo_selection **, azulejo_thin_report *) = azulejo_thin;
     size_t (*selection_count)(const azulejo_selection *) = azulejo_selection_count;
@@ -478,6 +506,7 @@ static void signatures(void) {
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
     CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
     CHECK(volume_options_init && volume_report_init && volume_sample);
+    CHECK(mask_create && mask_size && mask_ranks && mask_values && mask_dither && mask_dither_bytes && mask_free);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);
 }
 

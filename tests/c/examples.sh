@@ -66,6 +66,16 @@ run_stipple() { # BUILD: a disk that fades from black to white
         fails "$1/stipple" && fails "$1/stipple" "$work/roof.obj" "$work/roof.svg"
 }
 
+run_dither() { # BUILD: a gradient in two levels and in five, with the light of the image
+    "$1/dither" - "$work/halftone.pgm" >"$work/dither.txt" && "$1/dither" - "$work/five.pgm" 5 >>"$work/dither.txt" &&
+        cat "$work/dither.txt" && [ "$(stat -c %s "$work/halftone.pgm")" = $((15 + 512 * 128)) ] &&
+        [ "$(tail -c +16 "$work/halftone.pgm" | od -An -v -tu1 -w1 | sort -u | wc -l)" = 2 ] &&
+        [ "$(tail -c +16 "$work/five.pgm" | od -An -v -tu1 -w1 | sort -u | wc -l)" = 5 ] &&
+        awk '{ sub(",", "", $2); d = $2 - $6; exit !(d < 0.001 && d > -0.001) }' "$work/dither.txt" &&
+        "$1/dither" "$work/halftone.pgm" "$work/again.pgm" && cmp "$work/halftone.pgm" "$work/again.pgm" &&
+        fails "$1/dither" && fails "$1/dither" "$work/roof.obj" "$work/roof.pgm" && fails "$1/dither" - "$work/a.pgm" 1
+}
+
 run_tufts() { # BUILD: a picture of as many bytes as its pixels take, with fur on a light ground
     "$1/tufts" "$work/roof.obj" "$work/roof.ppm" 500 64 &&
         [ "$(stat -c %s "$work/roof.ppm")" = $((13 + 3 * 64 * 64)) ] &&

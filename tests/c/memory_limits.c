@@ -515,6 +515,20 @@ static azulejo_status thinned_to(const azulejo_context *context, size_t count, u
     return status;
 }
 
+/* The filter of least reach, which takes the least time and the same memory. */
+static azulejo_status masked(const azulejo_context *context, size_t count) {
+    azulejo_mask_options o;
+    azulejo_mask *mask = NULL;
+    ACCEPTED(azulejo_mask_options_init(&o, sizeof o));
+    o.width = 256;
+    o.height = count / 256 / 64;
+    o.channels = 64;
+    o.sigma = 0.5;
+    const azulejo_status status = azulejo_mask_create(context, &o, &mask, NULL);
+    azulejo_mask_free(mask);
+    return status;
+}
+
 static azulejo_status thinned(const azulejo_context *context, size_t count) {
     return thinned_to(context, count, 3, count / 10, 0, AZULEJO_ORDER_PROGRESSIVE);
 }
@@ -596,6 +610,7 @@ static const struct {
     {"relax, density", relaxed_density, 100000, MOST_ASKED},
     {"relax, density, bounded", relaxed_density_bounded, 60000, MOST_ASKED},
     {"relax, mesh", relaxed_on_mesh, 100000, MOST_ASKED},
+    {"mask, 64 channels", masked, 2097152, MOST_ASKED},
     {"thin, 3-D, a tenth", thinned, 500000, MOST_ASKED},
     {"thin, 3-D, all in order", thinned_all, 500000, MOST_ASKED},
     {"thin, 2-D, radius", thinned_plane, 1000000, MOST_ASKED},

@@ -33,6 +33,8 @@ static void defaults(void) {
     azulejo_plane_set set;
     azulejo_thin_options thin;
     azulejo_volume_options volume;
+    azulejo_mask_options mask;
+    memset(&mask, 0x55, sizeof mask);
     memset(&volume, 0x55, sizeof volume);
     memset(&thin, 0x55, sizeof thin);
     memset(&surface, 0x55, sizeof surface);
@@ -55,6 +57,7 @@ static void defaults(void) {
     ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
     ACCEPTED(azulejo_thin_options_init(&thin, sizeof thin));
     ACCEPTED(azulejo_volume_options_init(&volume, sizeof volume));
+    ACCEPTED(azulejo_mask_options_init(&mask, sizeof mask));
 
     CHECK(kdrt.struct_size == sizeof kdrt && maximal.struct_size == sizeof maximal);
     CHECK(psp.struct_size == sizeof psp && dcr.struct_size == sizeof dcr);
@@ -88,6 +91,8 @@ static void defaults(void) {
     CHECK(set.boundary == AZULEJO_BOUNDARY_PERIODIC);
     CHECK(thin.struct_size == sizeof thin && thin.order == AZULEJO_ORDER_ANY && thin.radius == 0 && thin.count == 0);
     CHECK(thin.seed == 0 && thin.progress == NULL && thin.progress_user == NULL);
+    CHECK(mask.struct_size == sizeof mask && mask.width == 0 && mask.height == 0 && mask.depth == 1 && mask.channels == 1);
+    CHECK(mask.seed == 0 && mask.sigma == 1.5 && mask.progress == NULL && mask.progress_user == NULL);
     CHECK(volume.struct_size == sizeof volume && volume.boundary == AZULEJO_BOUNDARY_PERIODIC && volume.radius == 0);
     CHECK(volume.domain_min[0] == 0 && volume.domain_min[2] == 0 && volume.domain_max[0] == 1 && volume.domain_max[2] == 1);
     CHECK(volume.seed == 0 && volume.progress == NULL && volume.progress_user == NULL);
@@ -105,6 +110,7 @@ static void refused_inits(void) {
     REFUSED(INVALID, "options", azulejo_psp_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_thin_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_volume_options_init(NULL, sizeof options));
+    REFUSED(INVALID, "options", azulejo_mask_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_dcr_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_dcr_surface_options_init(NULL, sizeof options));
     REFUSED(INVALID, "options", azulejo_psp_adaptive_options_init(NULL, sizeof options));

@@ -77,6 +77,18 @@ static azulejo_status thin(void *report) {
     return status;
 }
 
+static azulejo_status mask(void *report) {
+    azulejo_mask_options o;
+    azulejo_mask *out = NULL;
+    azulejo_status status;
+    ACCEPTED(azulejo_mask_options_init(&o, sizeof o));
+    o.width = o.height = 16;
+    status = azulejo_mask_create(context, &o, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_mask_free(out);
+    return status;
+}
+
 static azulejo_classes two_classes(void) {
     static const double radii[4] = {0.2, 0.1, 0.1, 0.1};
     azulejo_classes classes;
@@ -229,6 +241,7 @@ static azulejo_status spectral(void *report) { return azulejo_spectrum_measure(s
 INIT(kdrt)
 INIT(kdrt_merge)
 INIT(thin)
+INIT(mask)
 INIT(classes)
 INIT(psp)
 INIT(dcr)
@@ -260,6 +273,7 @@ static const entry entries[] = {
     {stream, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
     {maximal, REPORT(kdrt, 16, seconds), KDRT_TIMES, 1},
     {thin, REPORT(thin, 16, seconds), offsetof(azulejo_thin_report, seconds), sizeof(azulejo_thin_report), 1},
+    {mask, REPORT(mask, 16, seconds), offsetof(azulejo_mask_report, seconds), sizeof(azulejo_mask_report), 1},
     {classes_of_plane, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {classes_of_mesh, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {classes_with_density, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},

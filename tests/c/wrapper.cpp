@@ -429,6 +429,32 @@ void thinning() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::plane_thin(context, options, line); }));
 }
 
+void masks() {
+    const azulejo::Context context(2);
+    azulejo::MaskOptions options;
+    options.width = 16;
+    options.height = 8;
+    options.channels = 2;
+    azulejo::MaskReport report;
+    const auto mask = azulejo::mask_create(context, options, &report);
+    CHECK(mask.width() == 16 && mask.height() == 8 && mask.depth() == 1 && mask.channels() == 2);
+    CHECK(mask.ranks().size() == 256 && report.pixels == 128);
+    std::vector<float> values(256);
+    azulejo::check(mask.try_values(values));
+    for (std::size_t i = 0; i < 256; i++) CHECK(values[i] == (float(mask.ranks()[i]) + 0.5f) / 128);
+    CHECK(!mask.try_values(azulejo::Span<float>(values.data(), 255)).ok());
+    const std::vector<float> image(32 * 16 * 2, 0.25f);
+    const std::vector<std::uint8_t> bytes(32 * 16 * 2, 255);
+    std::vector<std::uint8_t> out(image.size());
+    azulejo::check(mask.try_dither(azulejo::Span<const float>(image), 32, 2, 2, out));
+    CHECK(std::count(out.begin(), out.end(), 1) == 256);
+    azulejo::check(mask.try_dither(azulejo::Span<const std::uint8_t>(bytes), 32, 2, 7, out));
+    CHECK(std::count(out.begin(), out.end(), 6) == 1024);
+    CHECK(!mask.try_dither(azulejo::Span<const float>(image), 31, 2, 2, out).ok());
+    options.set_progress([](double) { return false; });
+    CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::mask_create(context, options); }));
+}
+
 void volumes() {
     const azulejo::Context context(2);
     azulejo::VolumeOptions options;
@@ -657,6 +683,7 @@ int main() {
     streams();
     merging();
     thinning();
+    masks();
     volumes();
     adaptive();
     frames();

@@ -3,6 +3,7 @@
 pub mod list;
 
 mod analysis;
+mod mask;
 mod mesh_grid;
 mod meshes;
 mod plane;
@@ -26,9 +27,10 @@ pub fn sums(threads: usize) -> Result<List> {
     Ok(list)
 }
 
-/// Adds those of the grids, on small sets or large ones, and of volumes.
+/// Adds those of the grids, on small sets or large ones, of volumes and of masks.
 pub fn grids(context: &Context, small: bool, list: &mut List) -> Result<()> {
     plane_grid::sums(context, small, list)?;
     mesh_grid::sums(context, small, list)?;
-    volume::sums(context, small, list)
+    volume::sums(context, small, list)?;
+    mask::sums(context, small, list)
 }

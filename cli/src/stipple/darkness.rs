@@ -109,7 +109,7 @@ impl Darkness {
 }
 
 /// A PNG file; `gamma` is checked before.
-fn load(path: &Path, gamma: f64) -> Result<DynamicImage> {
+pub fn load(path: &Path, gamma: f64) -> Result<DynamicImage> {
     if !(gamma > 0.0 && gamma.is_finite()) {
         let reason = format!("{gamma} is not a positive finite number");
         return Err(Error::InvalidArgument { argument: "--gamma", reason });

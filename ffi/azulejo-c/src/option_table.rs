@@ -10,6 +10,7 @@ use azulejo_core::kdrt;
 use crate::adaptive::azulejo_psp_adaptive_options_init;
 use crate::dcr::azulejo_dcr_options_init;
 use crate::kdrt::azulejo_kdrt_options_init;
+use crate::mask::azulejo_mask_options_init;
 use crate::maximal::azulejo_maximal_options_init;
 use crate::merge::azulejo_kdrt_merge_options_init;
 use crate::psp::azulejo_psp_options_init;
@@ -162,6 +163,7 @@ fn written(name: &str) -> Vec<u8> {
         "azulejo_dcr_options": azulejo_dcr_options_init,
         "azulejo_dcr_surface_options": azulejo_dcr_surface_options_init,
         "azulejo_thin_options": azulejo_thin_options_init,
+        "azulejo_mask_options": azulejo_mask_options_init,
         "azulejo_volume_options": azulejo_volume_options_init
     }
 }
@@ -200,7 +202,7 @@ fn numbers(text: &str) -> Vec<&str> {
 
 #[test]
 fn the_structs_of_the_header_have_these_options_defaults_and_ranges() {
-    let header: String = ["base", "kdrt", "psp", "volume", "dcr", "thin"]
+    let header: String = ["base", "kdrt", "psp", "volume", "dcr", "thin", "mask"]
         .map(|name| read(&format!("include/azulejo/{name}.h")))
         .concat();
     let mut structs = BTreeSet::new();

@@ -11,7 +11,7 @@ const COLUMNS: usize = 100;
 
 /// As many lines of comments as all headers may have, so that they can be read: what holds for many calls stands once, in
 /// azulejo.h, and derivations in docs/.
-const COMMENTS: usize = 1_280;
+const COMMENTS: usize = 1_330;
 
 /// A header below include/azulejo/.
 struct Header {
@@ -23,7 +23,7 @@ struct Header {
 }
 
 /// The headers, in the order in which azulejo.h includes them.
-const HEADERS: [Header; 7] = [
+const HEADERS: [Header; 8] = [
     Header {
         name: "base",
         page: "What all calls share: status codes, contexts, points, orders, classes and meshes.",
@@ -49,6 +49,7 @@ const HEADERS: [Header; 7] = [
         sources: &["dcr", "density", "surface", "remesh"],
     },
     Header { name: "thin", page: "Thinning: points of a cloud that are far from each other.", sources: &["thin"] },
+    Header { name: "mask", page: "Masks: blue-noise masks, and halftones by them.", sources: &["mask"] },
     Header {
         name: "analysis",
         page: "Analysis: distances, coverage and spectra of sets.",

@@ -17,6 +17,7 @@ use azulejo_c::kept::*;
 use azulejo_c::maximal::*;
 use azulejo_c::merge::*;
 use azulejo_c::mesh::*;
+use azulejo_c::mask::*;
 use azulejo_c::mesh_density::*;
 use azulejo_c::order::*;
 use azulejo_c::plane_edit::*;
@@ -54,7 +55,8 @@ freed!(
     azulejo_mesh: azulejo_mesh_free,
     azulejo_psp: azulejo_psp_free,
     azulejo_points: azulejo_points_free,
-    azulejo_selection: azulejo_selection_free
+    azulejo_selection: azulejo_selection_free,
+    azulejo_mask: azulejo_mask_free
 );
 
 impl<T: Freed> Owned<T> {
@@ -288,6 +290,36 @@ fn clouds() {
         }
         drop(selection);
     }
+    drop(context);
+}
+
+#[test]
+fn masks() {
+    let context = context();
+    let mut options = defaults(azulejo_mask_options_init);
+    (options.width, options.height, options.channels) = (5, 3, 2);
+    let mut report = defaults(azulejo_mask_report_init);
+    // SAFETY: the options and the report are of their types.
+    let mask = made(|out| unsafe { azulejo_mask_create(context.get(), &options, out, &mut report) });
+    assert_eq!((report.pixels, mask.read(azulejo_mask_channels)), (15, 2));
+    let mut values = [0.0f32; 30];
+    let (floats, bytes, mut levels) = ([0.5f32; 12], [255u8; 12], [7u8; 12]);
+    // SAFETY: the arrays have a number for each pixel and channel, none where there are none.
+    unsafe {
+        assert_eq!([0, 1, 2, 3].map(|axis| azulejo_mask_size(mask.get(), axis)), [5, 3, 1, 0]);
+        assert!((0..30).all(|i| *mask.read(azulejo_mask_ranks).add(i) < 15));
+        assert_eq!(azulejo_mask_values(mask.get(), values.as_mut_ptr()), AZULEJO_OK);
+        let out = levels.as_mut_ptr();
+        assert_eq!(azulejo_mask_dither(mask.get(), floats.as_ptr(), 2, 2, 1, 3, 4, out), AZULEJO_OK);
+        assert_eq!(azulejo_mask_dither_bytes(mask.get(), bytes.as_ptr(), 3, 2, 2, 1, 2, out), AZULEJO_OK);
+        assert_eq!(azulejo_mask_dither(mask.get(), null(), 0, 2, 1, 1, 2, null_mut()), AZULEJO_OK);
+        assert!(azulejo_mask_dither(mask.get(), null(), 1, 1, 1, 1, 2, out) < 0);
+        assert!(azulejo_mask_dither(mask.get(), floats.as_ptr(), usize::MAX, 2, 1, 1, 2, out) < 0);
+        assert!(azulejo_mask_dither(mask.get(), floats.as_ptr(), 2, 2, 1, 3, 4, null_mut()) < 0);
+        assert!(azulejo_mask_values(mask.get(), null_mut()) < 0);
+    }
+    assert!(values.iter().all(|value| (0.0..1.0).contains(value)) && levels == [1; 12]);
+    drop(mask);
     drop(context);
 }
 
