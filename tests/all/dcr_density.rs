@@ -330,3 +330,48 @@ fn strips_and_domains_that_floats_can_hardly_resolve_stay_inside() {
         assert!((28..33).contains(&left), "{left}");
     }
 }
+
+#[test]
+#[ignore]
+fn measure_strays() {
+    for (width, height, dots) in [(800usize, 600usize, 8000), (2000, 1500, 2000), (300, 200, 8000)] {
+        let start = std::time::Instant::now();
+        let side = width / 4;
+        let (left, low) = (width * 3 / 8, height / 3);
+        let blank = |x: usize, y: usize| (left..left + side).contains(&x) && (low..low + side).contains(&y);
+        let values: Vec<f32> =
+            (0..width * height).map(|i| if blank(i % width, i / width) { 0.0 } else { 1.0 }).collect();
+        let density = Density::Image { values: &values, width, height };
+        for steps in [0, 100] {
+            let mut deep = vec![];
+            let mut rhos = vec![];
+            let mut covers = vec![];
+            for (boundary, seed) in BOUNDARIES.into_iter().flat_map(|b| (0..10).map(move |seed| (b, seed))) {
+                let domain = Domain { min: [0.0; 2], max: [width as f64, height as f64], boundary };
+                let mut points = scattered(&domain, &density, dots, seed);
+                if steps > 0 {
+                    let (relaxed, report) = run(&options(domain).seed(seed).max_iterations(steps), &density, &points);
+                    points = relaxed;
+                    rhos.push(report.rho);
+                    covers.push(report.relative_covering_radius);
+                }
+                let depth = |p: &[f32; 2]| {
+                    let x = (f64::from(p[0]) - left as f64).min((left + side) as f64 - f64::from(p[0]));
+                    let y = (f64::from(p[1]) - low as f64).min((low + side) as f64 - f64::from(p[1]));
+                    x.min(y)
+                };
+                deep.push(points.iter().map(depth).fold(f64::NEG_INFINITY, f64::max));
+            }
+            let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len().max(1) as f64;
+            eprintln!(
+                "{width}x{height} {dots} steps {steps}: deepest {:.2?}; rho {:.4} least {:.4}, cover {:.4} most {:.4}, {:.1?}",
+                deep,
+                mean(&rhos),
+                rhos.iter().copied().fold(9.0, f64::min),
+                mean(&covers),
+                covers.iter().copied().fold(0.0, f64::max),
+                start.elapsed()
+            );
+        }
+    }
+}
