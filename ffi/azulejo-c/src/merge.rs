@@ -34,11 +34,9 @@ pub struct azulejo_kdrt_merge_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// 1: every piece is a conflict-free set of this radius and maximal, at least farther than the
-    /// radius from its edges, as azulejo_kdrt_sample, azulejo_kdrt_sample_window and
-    /// azulejo_maximal_sample make them. Then only what is within two radii of an edge or a fixed
-    /// point, or in no piece, is tested: the same result at a fraction of the time. Conflicts and
-    /// gaps that there are elsewhere all the same stay. Default 0.
+    /// 1: the pieces are maximal sets of this radius, at least farther than it from their edges, as
+    /// azulejo_kdrt_sample and azulejo_kdrt_sample_window make them. Then only their seams are
+    /// tested: the same set in less time, but conflicts and gaps elsewhere would stay. Default 0.
     pub maximal_pieces: u32,
     /// Must be 0.
     pub reserved: u32,
