@@ -14,7 +14,6 @@ use crate::error::Result;
 use crate::job::{Chunks, Job, chunks_of};
 use crate::plane::{cells::CellGrid, list::List, near::Near, rect::Rect};
 use crate::rng::Rng;
-use crate::simd::{Lanes, Work, run};
 
 /// Voxels wider than this are cut in sixteen by the coarse test, whose slack is negligible at this size; others exactly
 /// in four.
@@ -329,7 +328,7 @@ impl Quadtree {
     /// voxels.
     ///
     /// Threads share the aiming and the cutting. Darts aimed at once are accepted in their order, so that the samples
-    /// are those of one dart after the other. One thread throws them so.
+    /// are those of one dart after the other.
     pub fn fill_domain(
         &mut self,
         job: &Job,
@@ -338,7 +337,6 @@ impl Quadtree {
         expected: f64,
         mut accepted: impl FnMut([i32; 2]),
     ) -> Result<()> {
-        let is_alone = job.context().num_threads() == 1;
         let mut count = 0u64;
         let mut remaining = DARTS_PER_CELL * self.len();
         while !self.is_empty() {
@@ -346,39 +344,33 @@ impl Quadtree {
             while remaining > 0 {
                 let [fewest, most] = DARTS_AT_ONCE;
                 let darts = remaining.min((self.len() / 8).clamp(fewest, most));
-                let job = job.part(share(count), share(count));
-                let mut add = |point| {
-                    count += 1;
-                    accepted(point);
-                };
-                if is_alone {
-                    job.report(1.0)?;
-                    run(grid.vectors(), Throws { quadtree: self, grid, rng, darts, accepted: &mut add });
-                } else {
-                    let hits = shared(&job, chunks_of(darts, PER_TASK), |darts| {
-                        let rng = rng.after((DRAWS_PER_DART * darts.start) as u64);
-                        run(grid.vectors(), Aims { quadtree: self, grid, rng, darts: darts.len() })
-                    })?;
-                    for (cell, point) in hits.into_iter().flatten() {
-                        if !grid.conflicts(cell, point) {
-                            grid.insert(cell, point);
-                            add(point);
-                        }
+                let hits = shared(&job.part(share(count), share(count)), chunks_of(darts, PER_TASK), |darts| {
+                    self.aim(grid, rng.after((DRAWS_PER_DART * darts.start) as u64), darts.len())
+                })?;
+                for (cell, point) in hits.into_iter().flatten() {
+                    if !grid.conflicts(cell, point) {
+                        grid.insert(cell, point);
+                        count += 1;
+                        accepted(point);
                     }
-                    *rng = rng.after((DRAWS_PER_DART * darts) as u64);
                 }
+                *rng = rng.after((DRAWS_PER_DART * darts) as u64);
                 remaining -= darts;
             }
-            let job = job.part(share(count), share(count));
-            if is_alone && self.len() <= DARTS_AT_ONCE[1] {
-                job.report(1.0)?;
-                run(grid.vectors(), Refine { quadtree: self, grid });
-            } else {
-                self.refine_shared(&job, grid)?;
-            }
+            self.refine_shared(&job.part(share(count), share(count)), grid)?;
             remaining = darts(self.len());
         }
         Ok(())
+    }
+
+    /// The positions at which so many darts would become samples, with their cells.
+    fn aim(&self, grid: &CellGrid, mut rng: Rng, darts: usize) -> Vec<([i32; 2], [i32; 2])> {
+        let dart = |_| {
+            let pick = rng.below(self.voxels.len() as u64) as usize;
+            let Voxel { rect, cell } = self.voxels[pick];
+            grid.aim(cell, &rect, self.width, &mut rng).map(|point| (cell, point))
+        };
+        (0..darts).filter_map(dart).collect()
     }
 
     /// [`Quadtree::refine`] by all threads.
@@ -390,104 +382,15 @@ impl Quadtree {
             (place..self.len()).find(is_first).unwrap_or(self.len())
         };
         let parts = shared(job, chunks_of(self.len(), PER_TASK), |range| {
+            let mut parts = Vec::new();
             let voxels = &self.voxels[cell_from(range.start)..cell_from(range.end)];
-            run(grid.vectors(), Cut { grid, voxels, is_coarse, width })
+            Cutter::new().cut(grid, voxels, is_coarse, width, &mut parts);
+            parts
         })?;
         self.voxels.clear();
         parts.iter().for_each(|part| self.voxels.extend(part));
         self.width = width;
         Ok(())
-    }
-}
-
-/// A random voxel for a dart.
-#[inline(always)]
-fn pick(voxels: &[Voxel], rng: &mut Rng) -> Voxel {
-    voxels[rng.below(voxels.len() as u64) as usize]
-}
-
-/// So many darts, thrown one after the other.
-struct Throws<'a, A> {
-    quadtree: &'a Quadtree,
-    grid: &'a mut CellGrid,
-    rng: &'a mut Rng,
-    darts: usize,
-    accepted: &'a mut A,
-}
-
-impl<A: FnMut([i32; 2])> Work for Throws<'_, A> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, _: L) {
-        let Self { quadtree, grid, rng, darts, accepted } = self;
-        let mut draws = rng.clone();
-        for _ in 0..darts {
-            let Voxel { rect, cell } = pick(&quadtree.voxels, &mut draws);
-            if let Some(point) = grid.throw(cell, &rect, quadtree.width, &mut draws) {
-                accepted(point);
-            }
-        }
-        *rng = draws;
-    }
-}
-
-/// The positions at which so many darts would become samples, with their cells.
-struct Aims<'a> {
-    quadtree: &'a Quadtree,
-    grid: &'a CellGrid,
-    rng: Rng,
-    darts: usize,
-}
-
-impl Work for Aims<'_> {
-    type Out = Vec<([i32; 2], [i32; 2])>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, _: L) -> Self::Out {
-        let Self { quadtree, grid, mut rng, darts } = self;
-        let mut hits = Vec::new();
-        for _ in 0..darts {
-            let Voxel { rect, cell } = pick(&quadtree.voxels, &mut rng);
-            if let Some(point) = grid.aim(cell, &rect, quadtree.width, &mut rng) {
-                hits.push((cell, point));
-            }
-        }
-        hits
-    }
-}
-
-/// [`Cutter::cut`].
-struct Cut<'a> {
-    grid: &'a CellGrid,
-    voxels: &'a [Voxel],
-    is_coarse: bool,
-    width: i32,
-}
-
-impl Work for Cut<'_> {
-    type Out = Vec<Voxel>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, _: L) -> Vec<Voxel> {
-        let mut parts = Vec::new();
-        Cutter::new().cut(self.grid, self.voxels, self.is_coarse, self.width, &mut parts);
-        parts
-    }
-}
-
-/// [`Quadtree::refine`].
-struct Refine<'a> {
-    quadtree: &'a mut Quadtree,
-    grid: &'a CellGrid,
-}
-
-impl Work for Refine<'_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, _: L) {
-        self.quadtree.refine(self.grid);
     }
 }
 
