@@ -31,7 +31,8 @@ pub type Progress<'a> = dyn Fn(f64) -> ControlFlow<()> + 'a;
 /// The threads of the library: a rayon pool of its own, never the global one.
 ///
 /// With one thread no threads are started and all work happens in the caller's. Can be shared freely between threads.
-/// Keeps a pattern that several calls use, about 160 kB, once one has made it.
+/// Keeps patterns once a call has made them: the four that planes had last (see [`crate::kdrt`]), 0.9 MB each at most,
+/// and one of 160 kB for meshes.
 ///
 /// A process that is forked has none of the threads: a context with threads refuses to work there.
 #[derive(Debug)]

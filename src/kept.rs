@@ -1,7 +1,7 @@
 //! Data made on first use, and kept with a mesh or a context for the calls that follow.
 //!
 //! Data are identified by their type, so that their owner need not know who keeps them: with a mesh Embree's scene (psp),
-//! with a context the pattern of local projectors.
+//! with a context the patterns of planes and that of local projectors.
 
 use std::any::{Any, TypeId};
 use std::collections::HashMap;

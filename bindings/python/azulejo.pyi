@@ -501,6 +501,7 @@ def kdrt_merge(
     domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
     seed: SupportsIndex = 0,
+    maximal_pieces: bool = False,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...

@@ -190,6 +190,8 @@ fn merge(options: &azulejo_kdrt_options, input: &mut Input) {
         seed,
         progress,
         progress_user,
+        maximal_pieces: 0,
+        reserved: 0,
     };
     let middle = domain_min[0] + (domain_max[0] - domain_min[0]) * f64::from(input.any::<u8>()) / 256.0;
     let halves = [(domain_min, [middle, domain_max[1]]), ([middle, domain_min[1]], domain_max)];

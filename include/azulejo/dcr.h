@@ -184,7 +184,8 @@ typedef struct azulejo_density {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t reserved; ///< Must be 0.
     /// An image that is stretched over the domain, linear between the centres of its pixels:
-    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]).
+    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]). A
+    /// domain_max of `width` and `height` keeps its proportions, the default of 1 1 does not.
     const float *values;
     size_t width; ///< The number of pixels in a row.
     size_t height; ///< The number of rows.

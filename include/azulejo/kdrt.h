@@ -285,6 +285,11 @@ typedef struct azulejo_kdrt_merge_options {
     uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
+    /// 1: the pieces are maximal sets of this radius, at least farther than it from their edges, as
+    /// azulejo_kdrt_sample and azulejo_kdrt_sample_window make them. Then only their seams are
+    /// tested: the same set in less time, but conflicts and gaps elsewhere would stay. Default 0.
+    uint32_t maximal_pieces;
+    uint32_t reserved; ///< Must be 0.
 } azulejo_kdrt_merge_options;
 
 /// The fate of the samples of the pieces. The result has the fixed points first, then the kept
@@ -333,8 +338,8 @@ azulejo_status azulejo_kdrt_merge_report_init(azulejo_kdrt_merge_report *report,
 /// - O(samples) time and memory, and at most O(piece_count^2) time for the rectangles. A periodic
 ///   domain narrower than about 10 radii is filled on one thread.
 /// - Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for rectangles that overlap or leave the domain,
-///   samples outside theirs, and two samples of one piece or two fixed points that are closer than
-///   the radius (the message has their indices).
+///   samples outside theirs, and two samples of one piece (of `maximal_pieces` only near edges) or
+///   two fixed points that are closer than the radius (the message has their indices).
 azulejo_status azulejo_kdrt_merge(const azulejo_context *context,
                                   const azulejo_kdrt_merge_options *options,
                                   const azulejo_kdrt_merge_piece *pieces,

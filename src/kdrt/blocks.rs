@@ -107,6 +107,17 @@ impl Blocks {
         }
     }
 
+    /// The blocks that lie in `rect`, a part of the domain; perhaps none.
+    pub fn within(&self, rect: &Rect) -> Rect {
+        let inside = |axis: usize| {
+            let first = self.edges[axis].partition_point(|&edge| edge < rect.min[axis]);
+            let end = self.edges[axis].partition_point(|&edge| edge <= rect.max[axis]);
+            [first as i32, end as i32 - 1]
+        };
+        let [[left, right], [bottom, top]] = [inside(0), inside(1)];
+        Rect { min: [left, bottom], max: [right, top] }
+    }
+
     /// The column (axis 0) or row (axis 1) that holds a lattice point of the domain, or of its images.
     pub fn index(&self, axis: usize, point: i32) -> i32 {
         let regular = i64::from(point) * i64::from(self.counts[axis]) / i64::from(self.size[axis]);

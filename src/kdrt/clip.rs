@@ -5,6 +5,8 @@
 //! it contains only the points *inside* the leaf, without the thesis's margin of 2r, because the gaps along its
 //! boundary are filled anyway.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use crate::error::Result;
 use crate::index::Binned;
 use crate::job::Job;
@@ -98,6 +100,21 @@ impl Pattern {
         Self::from_points(&job.part(0.99, 1.0), &points, side, lattice.separation.reach)
     }
 
+    /// [`Pattern::new`], or the one that the context keeps from an earlier call with the same arguments.
+    pub fn kept(job: &Job, plane: &Lattice, side: i32, seed: u64) -> Result<Arc<Self>> {
+        let key = Key { side, radius: plane.radius.to_bits(), seed };
+        let patterns = job.kept(|| Ok(Patterns::default()))?;
+        if let Some(pattern) = patterns.find(key) {
+            return Ok(pattern);
+        }
+        // Two calls at once may both make it: none waits for another.
+        let pattern = Arc::new(Self::new(job, plane, side, seed)?);
+        if f64::from(side) <= SIDES[1] * plane.radius + 1.0 {
+            patterns.keep(key, &pattern);
+        }
+        Ok(pattern)
+    }
+
     fn from_points(job: &Job, points: &[[i32; 2]], side: i32, height: i32) -> Result<Self> {
         let turned = job.map(TURNS, |turn| {
             let turned: Vec<_> = points.iter().map(|&point| turned(point, side, turn)).collect();
@@ -168,6 +185,42 @@ impl Pattern {
     }
 }
 
+// # Kept patterns
+//
+// Calls for parts of one plane, and for planes of one seed and radius, have the same pattern, which takes as long to make
+// as tens of thousands of samples. A context keeps those made last.
+
+/// The number of patterns that a context keeps, of 0.9 MB each; none whose leaves are so large that it is larger.
+const PATTERNS: usize = 4;
+
+/// All that a pattern depends on: its lattice is the integers, and its separation follows from the radius.
+#[derive(Clone, Copy, PartialEq)]
+struct Key {
+    side: i32,
+    radius: u64,
+    seed: u64,
+}
+
+/// Patterns with their keys, from the one that was used last to the one that was not for longest.
+#[derive(Default)]
+struct Patterns(Mutex<Vec<(Key, Arc<Pattern>)>>);
+
+impl Patterns {
+    fn find(&self, key: Key) -> Option<Arc<Pattern>> {
+        let mut patterns = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let index = patterns.iter().position(|(of, _)| *of == key)?;
+        patterns[..=index].rotate_right(1);
+        Some(patterns[0].1.clone())
+    }
+
+    fn keep(&self, key: Key, pattern: &Arc<Pattern>) {
+        let mut patterns = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        patterns.retain(|(of, _)| *of != key);
+        patterns.truncate(PATTERNS - 1);
+        patterns.insert(0, (key, pattern.clone()));
+    }
+}
+
 /// A point of a square torus after one of four turns.
 fn turned([x, y]: [i32; 2], side: i32, turn: usize) -> [i32; 2] {
     match turn {
@@ -196,6 +249,42 @@ mod tests {
             assert_eq!(length(offset(turn)), length(offset(0)));
             assert!((0..turn).all(|other| offset(other) != offset(turn) && offset(other) != opposite(offset(turn))));
         }
+    }
+
+    /// Seeds, radii and sides in turns, more than are kept: each pattern is the one of its arguments, and those used
+    /// last are not made again.
+    #[test]
+    fn a_context_keeps_the_patterns_used_last_and_never_gives_that_of_other_arguments() {
+        let context = crate::job::Context::new(1).unwrap();
+        let domain =
+            crate::points::Domain { min: [0.0; 2], max: [40.0; 2], boundary: crate::points::Boundary::Bounded };
+        let made = |keeping: bool, (radius, side, seed): (f64, i32, u64)| {
+            let lattice = Lattice::new(&domain, radius).unwrap();
+            let side = side * lattice.radius.ceil() as i32;
+            context
+                .run(None, |job| match keeping {
+                    true => Pattern::kept(job, &lattice, side, seed),
+                    false => Pattern::new(job, &lattice, side, seed).map(Arc::new),
+                })
+                .unwrap()
+        };
+        let all = [(0.5, 12, 1), (0.5, 12, 2), (0.5, 13, 1), (0.5f64.next_up(), 12, 1), (1.0, 12, 1), (1.0, 12, 2)];
+        let points = |pattern: &Pattern| pattern.turned.iter().map(|turn| turn.items().to_vec()).collect::<Vec<_>>();
+        for round in 0..3 {
+            for (i, &arguments) in all.iter().enumerate() {
+                let pattern = made(true, arguments);
+                assert!(points(&pattern) == points(&made(false, arguments)), "{round} {arguments:?}");
+                let earlier = all[..=i].iter().rev().take(PATTERNS);
+                assert!(earlier.clone().all(|&again| Arc::ptr_eq(&made(true, again), &made(true, again))));
+                assert!(Arc::ptr_eq(&pattern, &made(true, arguments)));
+            }
+        }
+        // Of different seeds no point is the same.
+        let [one, two] = [all[0], all[1]].map(|arguments| points(&made(true, arguments)));
+        assert!(one[0].iter().all(|point| !two[0].contains(point)));
+        // A large one is not kept.
+        let large = (0.5, 201, 1);
+        assert!(!Arc::ptr_eq(&made(true, large), &made(true, large)));
     }
 
     /// Every clip against a loop over all points and their images.

@@ -10,7 +10,7 @@
 //! plane can be made alone (`plane.rs`). An order whose prefixes are well spread (`progressive.rs`) and several classes
 //! (`classes/`) are layers, each filled around those before (`stack.rs`); a plane that is kept remembers what its windows
 //! made of them (`cache.rs`). `count.rs` takes a number of samples instead of a radius; sets that were made separately
-//! are merged into one by the same two steps (`merge.rs`); any set can be edited afterwards (`editable.rs`,
+//! are merged into one by the same two steps (`merge.rs`, `seams.rs`); any set can be edited afterwards (`editable.rs`,
 //! `refill.rs`). Each file states its departures from the thesis.
 
 mod blocks;
@@ -29,6 +29,7 @@ mod progressive;
 mod refill;
 mod region;
 mod relative;
+mod seams;
 mod stack;
 #[cfg(feature = "stages")]
 #[doc(hidden)]

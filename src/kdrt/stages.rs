@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::job::Context;
 use crate::plane::{Lattice, Rect};
 
+use crate::kdrt::clip::Pattern;
 use crate::kdrt::options::{Kind, Options, check_leaf_size};
 use crate::kdrt::tiling::{self, Tiling};
 
@@ -110,7 +111,10 @@ pub fn sample_varied(context: &Context, options: &Options, pattern_side: f64, fi
     let (mut pattern, mut tiled) = (Duration::ZERO, Duration::ZERO);
     let samples = context.run(None, |job| {
         let mut tiling = timed(&mut pattern, || {
-            Tiling::with_pattern(job, lattice.clone(), leaf_size, pattern_side, seed, Default::default())
+            let side = (pattern_side * lattice.radius).ceil() as i32;
+            Pattern::new(job, &lattice, side, seed).map(|pattern| {
+                Tiling::with_pattern(pattern.into(), lattice.clone(), leaf_size, seed, Default::default())
+            })
         })?;
         tiling.fix(fixed);
         timed(&mut tiled, || {

@@ -38,7 +38,7 @@ pub struct Tiling {
     lattice: Lattice,
     axes: [CellAxis; 2],
     tree: Tree,
-    pattern: Pattern,
+    pattern: Arc<Pattern>,
     blocks: Blocks,
     footprints: Footprints,
     around: Arc<GivenDisks>,
@@ -51,23 +51,23 @@ impl Tiling {
         is_wide(lattice) && width * height > square(pattern_side(leaf_size))
     }
 
-    /// Makes the pattern of the plane. The lattice must be worth tiling.
+    /// Makes the pattern of the plane, unless the context keeps it. The lattice must be worth tiling.
     pub fn new(job: &Job, lattice: Lattice, leaf_size: f64, seed: u64, around: Arc<GivenDisks>) -> Result<Self> {
-        Self::with_pattern(job, lattice, leaf_size, pattern_side(leaf_size), seed, around)
+        let side = (pattern_side(leaf_size) * lattice.radius).ceil() as i32;
+        let pattern = Pattern::kept(job, &lattice, side, seed)?;
+        Ok(Self::with_pattern(pattern, lattice, leaf_size, seed, around))
     }
 
-    /// [`Tiling::new`] with a pattern of this side in radii, which must be at least twice the leaf size.
+    /// [`Tiling::new`] with another pattern, whose side must be at least twice the leaf size.
     pub fn with_pattern(
-        job: &Job,
+        pattern: Arc<Pattern>,
         lattice: Lattice,
         leaf_size: f64,
-        pattern_side: f64,
         seed: u64,
         around: Arc<GivenDisks>,
-    ) -> Result<Self> {
-        let pattern = Pattern::new(job, &lattice, (pattern_side * lattice.radius).ceil() as i32, seed)?;
+    ) -> Self {
         let axes = lattice.size.map(|size| CellAxis::new(size, lattice.radius));
-        Ok(Self {
+        Self {
             footprints: Footprints::new(lattice.radius, [0, 1].map(|axis: usize| axes[axis].side())),
             axes,
             tree: tree(&lattice, leaf_size, seed),
@@ -75,7 +75,7 @@ impl Tiling {
             pattern,
             lattice,
             around,
-        })
+        }
     }
 
     /// Makes one part of the algorithm deterministic.

@@ -223,6 +223,16 @@ impl Lattice {
         rect.intersection(&self.rect())
     }
 
+    /// The parts of the domain whose points, or on a torus images of them, lie in `rect`, each with the displacement of
+    /// these images. Some may be empty.
+    pub fn parts(&self, rect: &Rect) -> impl Iterator<Item = ([i32; 2], Rect)> {
+        let (rect, size, all) = (*rect, self.size, self.rect());
+        let turns =
+            move |axis: usize| rect.min[axis].div_euclid(size[axis])..=(rect.max[axis] - 1).div_euclid(size[axis]);
+        let turns = turns(1).flat_map(move |y| turns(0).map(move |x| [x * size[0], y * size[1]]));
+        turns.map(move |turn| (turn, rect.translated(turn.map(|x| -x)).intersection(&all)))
+    }
+
     /// The approximate number of samples of a maximal set in `rect`.
     pub fn samples_in(&self, rect: &Rect) -> f64 {
         MAXIMAL_DENSITY * (f64::from(rect.length(0)) / self.radius) * (f64::from(rect.length(1)) / self.radius)

@@ -32,10 +32,12 @@ fn check(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> (Vec<[f3
     }
 }
 
-/// The pieces are maximal: only the seams may change.
+/// The pieces are maximal: only the seams may change, and nothing else need be tested.
 fn check_seams(options: &MergeOptions, parts: &[Part], fixed: &[[f32; 2]]) -> Vec<[f32; 2]> {
     let (samples, _) = check(options, parts, fixed);
     assert_eq!(merge_oracle::fault_of_seams(options, parts, fixed, &samples), None, "{options:?}");
+    let (seams_alone, _) = merged(&options.maximal_pieces(true), parts, fixed).unwrap();
+    assert!(seams_alone == samples, "{options:?}");
     samples
 }
 
@@ -101,6 +103,38 @@ fn the_oracles_notice_every_broken_promise() {
     assert!(fault.contains("of the interior went"), "{fault}");
     let fault = of_seams(&[&samples[..], &[[samples[inner][0].next_up(), samples[inner][1]]]].concat()).unwrap();
     assert!(fault.contains("new in the interior"), "{fault}");
+}
+
+/// Pieces so wide that most blocks are deep in one of them; those of windows are not covered at their edges.
+#[test]
+fn the_seams_of_wide_maximal_pieces_are_all_that_is_tested() {
+    let radius = 1.0 / 90.0;
+    for (seed, boundary) in (0..).zip(BOUNDARIES) {
+        let domain = domain([0.3, -2.0], [1.4, -1.0], boundary);
+        let options = MergeOptions::new(radius).domain(domain).seed(seed);
+        for shares in [tiles(1, 1), tiles(2, 2), PINWHEEL.to_vec(), HOLES.to_vec()] {
+            let mut parts = parts(&domain, radius, &shares, seed);
+            for fixed in [vec![], darts(&domain, radius, 5, seed)] {
+                check_seams(&options, &parts, &fixed);
+            }
+            for (index, part) in parts.iter_mut().enumerate() {
+                let (context, rectangle) = (Context::new(1).unwrap(), part.rectangle);
+                let plane = kdrt::Options::new(radius).domain(domain).leaf_size(6.0).seed(seed + index as u64);
+                part.samples =
+                    kdrt::sample_window(&context, &plane, rectangle.min, rectangle.max, None).unwrap().positions;
+            }
+            check_seams(&options, &parts, &[]);
+            // What is claimed falsely shows: a hole deep in a piece stays.
+            let Part { samples, rectangle: Domain { min, max, .. } } = &mut parts[0];
+            let middle = [0, 1].map(|axis: usize| (0.5 * (min[axis] + max[axis])) as f32);
+            samples.retain(|sample| common::distance(&domain, *sample, middle) > 0.03);
+            let [tested, trusted] = [false, true].map(|is| merged(&options.maximal_pieces(is), &parts, &[]).unwrap().0);
+            let near = |samples: &[[f32; 2]]| {
+                samples.iter().filter(|p| common::distance(&domain, **p, middle) <= 0.03).count()
+            };
+            assert!(near(&tested) > 8 && near(&trusted) == 0);
+        }
+    }
 }
 
 #[test]

@@ -61,7 +61,7 @@ FIELD(azulejo_maximal_options, seed, 48);
 FIELD(azulejo_maximal_options, progress, 56);
 FIELD(azulejo_maximal_options, progress_user, 64);
 
-SIZE(azulejo_kdrt_merge_options, 72);
+SIZE(azulejo_kdrt_merge_options, 80);
 FIELD(azulejo_kdrt_merge_options, struct_size, 0);
 FIELD(azulejo_kdrt_merge_options, boundary, 4);
 FIELD(azulejo_kdrt_merge_options, radius, 8);
@@ -70,6 +70,8 @@ FIELD(azulejo_kdrt_merge_options, domain_max, 32);
 FIELD(azulejo_kdrt_merge_options, seed, 48);
 FIELD(azulejo_kdrt_merge_options, progress, 56);
 FIELD(azulejo_kdrt_merge_options, progress_user, 64);
+FIELD(azulejo_kdrt_merge_options, maximal_pieces, 72);
+FIELD(azulejo_kdrt_merge_options, reserved, 76);
 
 SIZE(azulejo_classes, 32);
 FIELD(azulejo_classes, struct_size, 0);

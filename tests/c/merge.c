@@ -95,6 +95,8 @@ static void values(void) {
     MERGE(INVALID, "domain_min", o.domain_min[1] = NAN);
     MERGE(INVALID, "domain_max", o.domain_max[0] = 0);
     MERGE(INVALID, "boundary", o.boundary = 2);
+    MERGE(INVALID, "maximal_pieces", o.maximal_pieces = 2);
+    MERGE(INVALID, "reserved", o.reserved = 1);
     MERGE(AZULEJO_ERROR_TOO_LARGE, "radius", o.radius = 8.3461e-7);
     MERGE(INVALID, "fixed: point 1 is (NaN", fixed[1][0] = NAN);
     MERGE(INVALID, "fixed: point 0 is (", fixed[0][1] = 1);

@@ -234,11 +234,21 @@ pub(crate) fn dcr_relax_classes(
     Points::plane(py, samples, &set.frame)?.with_classes(py, classes.to_vec()).with_report(py, report)
 }
 
+/// The upper corner of the domain over which an image is laid: where no corner is given, it has the proportions of the
+/// image, and its longer side is 1.
+fn upper_corner(min: Option<[f64; 2]>, max: Option<[f64; 2]>, size: [usize; 2]) -> Option<[f64; 2]> {
+    let [width, height] = size.map(|pixels| pixels as f64);
+    let whole = [width, height].map(|length| length / width.max(height));
+    max.or(if min.is_none() { Some(whole) } else { None })
+}
+
 /// Moves points of the plane until they are spread as a density wants: stippling.
 ///
 /// positions: the points, float32, shape (n, 2), such as those of dcr_scatter.
 /// density: an image, float32, shape (height, width), 0 or above and not 0 everywhere, laid over the domain; its first
-///     row lies along domain_min[1]. The others are those of dcr_relax.
+///     row lies along domain_min[1].
+/// domain_min, domain_max: default: those of positions that are Points; else as in dcr_scatter. The others are those of
+///     dcr_relax.
 ///
 /// Returns Points, in the order of positions, with the report DcrReport.
 #[pyfunction]
@@ -259,9 +269,12 @@ pub(crate) fn dcr_relax_density(
     #[pyo3(from_py_with = whole::threads)] threads: i128,
     #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
-    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
     let density = Array::read("density", density)?;
-    let (points, (values, [width, height])) = (set.points()?, density.image()?);
+    let (values, [width, height]) = density.image()?;
+    let has_domain = positions.cast::<Points>().is_ok_and(|points| points.get().place.plane().is_some());
+    let domain_max = if has_domain { domain_max } else { upper_corner(domain_min, domain_max, [width, height]) };
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
+    let points = set.points()?;
     let request = with_steps(set.frame.domain, max_iterations, tolerance, seed)?;
     let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| {
         dcr::relax_with_density(context, &request, &Density::Image { values, width, height }, points, progress)
@@ -271,7 +284,9 @@ pub(crate) fn dcr_relax_density(
 
 /// Random points of a density, for dcr_relax_density to start from.
 ///
-/// density: as in dcr_relax_density. count: their number. The others are those of kdrt_sample.
+/// density: as in dcr_relax_density. count: their number.
+/// domain_min, domain_max: default: a domain in the proportions of the image, from 0 0, whose longer side is 1.
+/// The others are those of kdrt_sample.
 #[pyfunction]
 #[pyo3(signature = (
     density, count, *, domain_min=None, domain_max=None, boundary="periodic", seed=0, threads=0,
@@ -290,6 +305,7 @@ pub(crate) fn dcr_scatter(
 ) -> PyResult<Points> {
     let density = Array::read("density", density)?;
     let (values, [width, height]) = density.image()?;
+    let domain_max = upper_corner(domain_min, domain_max, [width, height]);
     let frame = Frame::new(domain_min, domain_max, boundary)?;
     let (count, seed) = (natural("count", count)?, natural("seed", seed)?);
     let samples = Watch::new(py, threads, progress)?.run(|context, progress| {

@@ -100,6 +100,7 @@ def test_pieces_are_merged():
     merged = azulejo.kdrt_merge(pieces, 0.02)
     assert merged.report.kept + merged.report.inserted == len(merged)
     assert azulejo.plane_coverage(merged.positions, 0.02).gaps == 0
+    assert (azulejo.kdrt_merge(pieces, 0.02, maximal_pieces=True).positions == merged.positions).all()
     assert smallest_distance(merged.positions, period=1.0) >= 0.02
 
 
@@ -135,6 +136,20 @@ def test_stippling_follows_an_image():
     start = azulejo.dcr_scatter(image, 400, boundary="bounded").positions
     stipples = azulejo.dcr_relax_density(start, image, boundary="bounded", max_iterations=30)
     assert (stipples.positions[:, 0] > 0.5).mean() > 0.6
+
+
+@pytest.mark.parametrize("height, width", [(60, 80), (80, 60), (1, 3)])
+def test_stipples_keep_the_proportions_of_the_image(height, width):
+    image = np.ones((height, width))
+    corner = np.array([width, height]) / max(width, height)
+    start = azulejo.dcr_scatter(image, 500)
+    stipples = azulejo.dcr_relax_density(start, image, max_iterations=20)
+    assert (azulejo.dcr_relax_density(start.positions, image, max_iterations=20).positions == stipples.positions).all()
+    for points in (start, stipples):
+        assert (points.positions < corner).all() and (points.positions.max(axis=0) > corner - 0.1).all()
+    stretched = azulejo.dcr_scatter(image, 500, domain_max=(1, 1)).positions
+    np.testing.assert_allclose(stretched * corner, start.positions, atol=1e-6)
+    assert azulejo.dcr_scatter(image, 500, domain_min=(-1, 0)).positions.max(axis=0).min() > 0.9
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])

@@ -32,7 +32,8 @@ pub struct azulejo_density {
     /// Must be 0.
     pub reserved: u32,
     /// An image that is stretched over the domain, linear between the centres of its pixels:
-    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]).
+    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]). A
+    /// domain_max of `width` and `height` keeps its proportions, the default of 1 1 does not.
     pub values: *const f32,
     /// The number of pixels in a row.
     pub width: usize,

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 
 use azulejo_core::kdrt::{self, MergeOptions, MergeReport, Piece};
 
-use crate::boundary::{Out, rows};
+use crate::boundary::{Out, check_reserved, flag, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::growing::{self, Growing, Output, elements, growing};
@@ -34,6 +34,12 @@ pub struct azulejo_kdrt_merge_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
+    /// 1: the pieces are maximal sets of this radius, at least farther than it from their edges, as
+    /// azulejo_kdrt_sample and azulejo_kdrt_sample_window make them. Then only their seams are
+    /// tested: the same set in less time, but conflicts and gaps elsewhere would stay. Default 0.
+    pub maximal_pieces: u32,
+    /// Must be 0.
+    pub reserved: u32,
 }
 
 growing!(azulejo_kdrt_merge_options requires radius {
@@ -44,6 +50,8 @@ growing!(azulejo_kdrt_merge_options requires radius {
     seed: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    maximal_pieces: 0,
+    reserved: 0,
 });
 
 /// Writes the defaults.
@@ -131,8 +139,8 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
 /// domain narrower than about 10 radii is filled on one thread.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for rectangles that overlap or leave the domain,
-/// samples outside theirs, and two samples of one piece or two fixed points that are closer than
-/// the radius (the message has their indices).
+/// samples outside theirs, and two samples of one piece (of `maximal_pieces` only near edges) or
+/// two fixed points that are closer than the radius (the message has their indices).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_merge(
     context: *const azulejo_context,
@@ -161,7 +169,10 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
             )
         };
         let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
-        let request = MergeOptions::new(options.radius).domain(domain).seed(options.seed);
+        check_reserved(options.reserved)?;
+        let maximal_pieces = flag("maximal_pieces", options.maximal_pieces)?;
+        let request =
+            MergeOptions::new(options.radius).domain(domain).seed(options.seed).maximal_pieces(maximal_pieces);
         let watch = Watch::new(options.progress, options.progress_user);
         let (merged, done) =
             context.run(watch, |context, progress| kdrt::merge(context, &request, &pieces, fixed, progress))?;

@@ -265,6 +265,7 @@ fn is_python(option: &str, default: &str, row: &Row) -> bool {
         "None" if row.default.contains(' ') || row.default.starts_with('-') || option == "boundary" => true,
         "None" => row.in_c.is_some() || row.default == "none",
         "True" => row.default == "1",
+        "False" => row.default == "0",
         _ if default.starts_with('"') => default.trim_matches('"') == row.default.replace(' ', "_").to_lowercase(),
         _ => number(default) == number(&row.default) || row.default == "required" && number(default) == Some(0.0),
     }

@@ -75,7 +75,7 @@ fn merged(context: &Context, radius: f64, seed: u64) -> Result<Merged> {
     })?;
     let piece = |(part, samples): (&Domain, _)| Piece { samples, min: part.min, max: part.max };
     let pieces: Vec<_> = parts.iter().zip(sets.iter().map(Vec::as_slice)).map(piece).collect();
-    let options = MergeOptions::new(radius).domain(domain).seed(seed);
+    let options = MergeOptions::new(radius).domain(domain).seed(seed).maximal_pieces(true);
     let ((samples, report), merging) = timed(|| merge(context, &options, &pieces, &[], None))?;
     Ok(Merged { sets, samples: samples.positions, report, seconds: [making, merging] })
 }
