@@ -167,6 +167,7 @@ all_stages() {
     if is_long; then
         stage "Property tests with fresh seeds" fresh_seeds
         stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test all -- --ignored dcr_converged::
+        stage "Ten million rays by every engine" cargo test --locked --package azulejo --lib -- --ignored engines::ten_million
         stage "Broken guarantees are noticed" scripts/mutate.sh
     else
         leave_out "what scripts/test.sh --long adds"

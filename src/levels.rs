@@ -119,6 +119,11 @@ impl<S: Levelled> Levels<S> {
         Self { surface, seed, samples: Vec::new(), radius: f64::INFINITY, darts: 0 }
     }
 
+    /// Levels whose first one, number 0, was made in another way: with infinite ranks, by so many darts.
+    pub fn begun(self, samples: Vec<S::Sample>, radius: f64, darts: u64) -> Self {
+        Self { samples, radius, darts, ..self }
+    }
+
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.samples.len()
@@ -302,7 +307,14 @@ struct Counted {
     len: usize,
 }
 
-/// Exactly `count` samples.
+/// The radius of the first level on the way to exactly `count` samples.
+pub fn first_radius(surface: &impl Levelled, count: usize, finest: f64) -> f64 {
+    // Small sets may have more samples than expected: along open boundaries.
+    let count = count as f64;
+    expected_radius(surface, AIM * count / (1.0 + 2.0 / count.sqrt()), finest)
+}
+
+/// Exactly `count` samples. Levels that have begun have fewer.
 pub fn exactly<S: Levelled>(
     job: &Job,
     mut levels: Levels<S>,
@@ -311,7 +323,7 @@ pub fn exactly<S: Levelled>(
 ) -> Result<LevelledSet<S::Sample>> {
     let mut above: Option<Counted> = None;
     let mut taken_back = 0;
-    for key in 0.. {
+    for key in u32::from(levels.len() > 0).. {
         let former = Counted { radius: levels.radius(), len: levels.len() };
         if former.radius == finest {
             return Err(none_finer::<S>(count, former.len, finest));
@@ -352,11 +364,7 @@ fn next_radius<S: Levelled>(
     let below = match levels.len() {
         // One sample covers the mesh.
         0 if count == 1 => return top,
-        0 if above.is_none() => {
-            // Small sets may have more samples than expected: along open boundaries.
-            let count = count as f64;
-            return expected_radius(&levels.surface, AIM * count / (1.0 + 2.0 / count.sqrt()), finest);
-        }
+        0 if above.is_none() => return first_radius(&levels.surface, count, finest),
         0 => Counted { radius: top, len: 1 },
         len => Counted { radius: levels.radius(), len },
     };

@@ -95,7 +95,8 @@ pub struct Options<'a> {
     pub cosine: f64,
     /// True, the default, if an iteration of [local projectors](Projectors::Local) precedes the fill of a set of more
     /// than about 25,000 samples, in any order, where that takes less time: by a rule of mesh, radius and given samples
-    /// (docs/design/surface.md). False: all samples are darts. Sets of a count and in progressive order always are.
+    /// (docs/design/surface.md). False: all samples are darts. Those in progressive order, and of a count beside given
+    /// samples, always are.
     pub projected: bool,
 }
 
@@ -250,7 +251,8 @@ impl<'a> FlatOptions<'a> {
         if count > 0 || order == Order::Progressive {
             self.check_levels()?;
             let options = if count > 0 { Options::by_count(count) } else { Options::new(radius) };
-            return Ok(Request::Levels(options.order(order).quotient(quotient).seed(seed).given(given).cosine(cosine)));
+            let options = options.order(order).quotient(quotient).seed(seed).given(given).cosine(cosine);
+            return Ok(Request::Levels(options.projected(iterations.is_none())));
         }
         if iterations == Some(0) && !maximal {
             // A C struct of zeros, filled without its _init, would be an empty set and a success.

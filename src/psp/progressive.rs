@@ -13,13 +13,13 @@ use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, finest_radius};
 use crate::psp::editable::{EditableSet, OnMesh};
-use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, Surface, require_samples};
+use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, ONE_PIECE, Surface, require_samples};
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::options::{FlatOptions, Options, ProjectionOptions, Projectors, Request, check_quotient};
 use crate::psp::project::{Pass, Projection, is_sooner_projected, is_worth_projecting};
 use crate::psp::report::{Report, rho};
-use crate::psp::set::SampleSet;
+use crate::psp::set::{Sample, SampleSet};
 
 /// A set of samples on a mesh that grows, call by call.
 ///
@@ -340,7 +340,7 @@ fn sample_levels(
     progress: Option<&Progress>,
 ) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
-    let &Options { amount, order, quotient, seed, given, cosine, projected: _ } = options;
+    let &Options { amount, order, quotient, seed, given, cosine, projected } = options;
     if let Amount::Count(count) = amount {
         check_count(count)?;
     }
@@ -367,10 +367,22 @@ fn sample_levels(
     };
     let surface = Surface { mesh, measures: &measures, given: &given, facing };
     let (levels, finest) = (Levels::new(surface, seed), finest_radius(mesh.float_spacing()));
+    let mut projection = Report::default();
     let found = context.run(progress, |job| match (amount, order) {
         (Amount::Radius(radius), _) => levels::by_radius(job, levels, quotient, radius),
         (Amount::Count(count), Order::Progressive) => levels::by_count(job, levels, quotient, count, finest),
-        (Amount::Count(count), Order::Any) => levels::exactly(job, levels, count, finest),
+        (Amount::Count(count), Order::Any) => {
+            let (mut job, mut levels) = (*job, levels);
+            if projected && given.is_empty() && count as f64 > ONE_PIECE {
+                let radius = levels::first_radius(&levels.surface, count, finest);
+                let first = job.part(0.0, 0.6);
+                if let Some((samples, report)) = begin_projected(&first, mesh, (radius, cosine, seed), count)? {
+                    levels = levels.begun(samples, radius, report.darts);
+                    (projection, job) = (report, job.part(0.6, 1.0));
+                }
+            }
+            levels::exactly(&job, levels, count, finest)
+        }
     })?;
     let samples = found.to_points(mesh, order);
     let len = samples.len();
@@ -380,9 +392,27 @@ fn sample_levels(
         uncovered_after: matches!(amount, Amount::Radius(_)).then_some(0.0),
         radius: found.radius,
         covering_radius: Some(found.covering_radius),
-        ..Report::of_fill(len, found.darts, &stopwatch)
+        ..projection.with_fill(len, found.darts, &stopwatch)
     };
     Ok((samples, report))
+}
+
+/// The first level on the way to an exact count, of this radius, where it takes less time if an iteration precedes its
+/// fill; it has fewer samples. Ranks need no projection: on a first level there are none.
+fn begin_projected(
+    job: &Job,
+    mesh: &Arc<Mesh>,
+    (radius, cosine, seed): (f64, f64, u64),
+    count: usize,
+) -> Result<Option<(Vec<Sample>, Report)>> {
+    let mut psp = Psp::new(mesh, &ProjectionOptions::new(radius).cosine(cosine).seed(seed))?;
+    if !psp.is_sooner_projected()? {
+        return Ok(None);
+    }
+    let mut report = Report::default();
+    psp.iterate(&job.part(0.0, 0.5), 1, &mut report)?;
+    psp.complete(&job.part(0.5, 1.0), &mut report)?;
+    Ok((psp.len() < count).then(|| (psp.samples.into_samples(), report)))
 }
 
 /// Refuses a count that is 0 or cannot be indexed.

@@ -61,9 +61,16 @@ pub struct Report {
 impl Report {
     /// The report of a set that was filled from nothing with so many samples and darts.
     pub(crate) fn of_fill(samples: usize, darts: u64, stopwatch: &Stopwatch) -> Self {
+        Self::default().with_fill(samples, darts, stopwatch)
+    }
+
+    /// The report of a set that was projected first, as this report says, and filled: with so many samples and darts in
+    /// all.
+    pub(crate) fn with_fill(self, samples: usize, darts: u64, stopwatch: &Stopwatch) -> Self {
         let (samples, seconds) = (samples as u64, stopwatch.seconds());
-        let conflicts = darts - samples;
-        Self { samples, accepted: samples, darts, conflicts, seconds, fill_seconds: seconds, ..Self::default() }
+        let conflicts = darts + self.hits - self.restart_conflicts - samples;
+        let fill_seconds = seconds - self.prepare_seconds - self.project_seconds - self.merge_seconds;
+        Self { samples, accepted: samples, darts, conflicts, seconds, fill_seconds, ..self }
     }
 }
 

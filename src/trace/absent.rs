@@ -43,6 +43,12 @@ impl Scene {
         match self.never {}
     }
 
+    /// Appends every hit on every ray, traced in packets of a width.
+    #[doc(hidden)]
+    pub fn all_hits_in_packets(&self, _width: usize, _rays: &[Ray], _hits: &mut Vec<Hit>) {
+        match self.never {}
+    }
+
     /// The first hit of each ray.
     pub fn closest_hits(&self, _rays: &[Ray]) -> Vec<Option<Hit>> {
         match self.never {}

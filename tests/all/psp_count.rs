@@ -18,7 +18,7 @@ fn sample_on(threads: usize, mesh: &Arc<Mesh>, options: Options) -> (Points<3>, 
 }
 
 /// Everything that is said of a set of so many samples, and the largest ratio of its covering radius to its radius.
-fn check(mesh: &Arc<Mesh>, count: usize, seed: u64, loosest: f64) {
+fn check(mesh: &Arc<Mesh>, count: usize, seed: u64, loosest: f64) -> Report {
     let options = Options::by_count(count).seed(seed);
     let (samples, report) = sample_on(1, mesh, options);
     assert_eq!((samples.len(), report.samples, samples.ranks.len()), (count, count as u64, 0));
@@ -26,8 +26,9 @@ fn check(mesh: &Arc<Mesh>, count: usize, seed: u64, loosest: f64) {
     assert!(count == 1 || radius > 0.0 && order_oracle::conflict(&samples, radius).is_none(), "{count}: {radius}");
     assert!(order_oracle::covers(mesh, &samples.positions, coverage), "{count}: {coverage}");
     assert!(coverage <= loosest * radius, "{count}: {}", coverage / radius);
-    assert_eq!(report.accepted + report.conflicts, report.darts);
+    assert_eq!(report.accepted + report.conflicts + report.restart_conflicts, report.darts + report.hits);
     assert_eq!(samples, sample_on(3, mesh, options).0, "depends on the threads");
+    report
 }
 
 const COUNTS: [usize; 12] = [1, 2, 3, 4, 5, 7, 10, 33, 100, 321, 1000, 4000];
@@ -50,22 +51,32 @@ fn any_mesh_has_any_number_of_samples() {
     ];
     for (seed, soup) in (0..).zip(soups) {
         let mesh = mesh(soup);
-        COUNTS.into_iter().for_each(|count| check(&mesh, count, seed, 1.1001));
+        COUNTS.into_iter().for_each(|count| _ = check(&mesh, count, seed, 1.1001));
     }
 }
 
 #[test]
 fn every_small_count_and_many_seeds() {
     let torus = mesh(meshes::torus());
-    (1..60).for_each(|count| check(&torus, count, count as u64, 1.1001));
-    (0..20).for_each(|seed| check(&torus, 500, seed, 1.1001));
+    (1..60).for_each(|count| _ = check(&torus, count, count as u64, 1.1001));
+    (0..20).for_each(|seed| _ = check(&torus, 500, seed, 1.1001));
 }
 
 #[test]
-fn large_counts_are_exact() {
-    let (torus, fine) = (mesh(meshes::fine_torus(400, 200)), mesh(meshes::torus()));
-    check(&torus, 54_321, 0, 1.1001);
-    check(&fine, 100_000, 1, 1.1001);
+fn large_counts_are_exact_projected_or_not() {
+    let (fine, torus) = (mesh(meshes::fine_torus(400, 200)), mesh(meshes::torus()));
+    check(&fine, 54_321, 0, 1.1001);
+    let projected = check(&torus, 100_000, 1, 1.1001);
+    assert!(projected.iterations == 1 && projected.hits > projected.samples / 2, "{projected:?}");
+    assert_eq!(check(&mesh(meshes::fine_torus(600, 300)), 26_000, 2, 1.1001).iterations, 0);
+    let context = Context::new(2).unwrap();
+    let flat = |iterations| FlatOptions::new(0.0).count(30_000).iterations(iterations).sample(&context, &torus, None);
+    let [by_default, darts] = [None, Some(0)].map(|iterations| flat(iterations).unwrap());
+    assert_eq!([by_default.1.iterations, darts.1.iterations], [1, 0]);
+    assert_eq!((by_default.0.len(), darts.0.len(), darts.1.hits), (30_000, 30_000, 0));
+    let options = Options::by_count(30_000);
+    assert_eq!(sample_on(1, &torus, options).0, by_default.0);
+    assert_eq!(sample_on(1, &torus, options.projected(false)).0, darts.0);
 }
 
 #[test]
@@ -75,7 +86,7 @@ fn masked_parts_are_as_if_they_were_not_there() {
     let masked = Mesh::new(positions, triangles).unwrap().with_mask(mask.clone()).unwrap();
     let nothing = Arc::new(masked.clone().with_mask(vec![false; mask.len()]).unwrap());
     let masked = Arc::new(masked);
-    [3, 200, 2000].into_iter().for_each(|count| check(&masked, count, 4, 1.1001));
+    [3, 200, 2000].into_iter().for_each(|count| _ = check(&masked, count, 4, 1.1001));
     let (samples, _) = sample_on(1, &masked, Options::by_count(2000));
     assert!(samples.triangles.iter().all(|&triangle| mask[triangle as usize]));
     let refused = psp::sample(&Context::new(1).unwrap(), &nothing, &Options::by_count(3), None);

@@ -45,6 +45,8 @@ pub struct TraceSpace {
     scale: f64,
     /// Half the size of the mesh's box (trace space), widened.
     half_box: DVec3,
+    /// The rays of a packet.
+    width: usize,
 }
 
 /// The repetitions of the pattern that meet the projection of the box on a projector.
@@ -154,13 +156,20 @@ impl TraceSpace {
                 build(&triangles)?
             }
         };
-        Ok(Self { scene, numbers, centre, scale, half_box: 0.5 * scale * (high - low) + BOX_MARGIN })
+        let width = scene.packet_width();
+        Ok(Self { scene, numbers, centre, scale, half_box: 0.5 * scale * (high - low) + BOX_MARGIN, width })
+    }
+
+    /// The mesh in trace space, built anew, for packets of so many rays: 1, 4, 8 or 16.
+    #[cfg(test)]
+    pub fn with_packets(job: &Job, mesh: &Mesh, width: usize) -> Result<Self> {
+        Ok(Self { width, ..Self::new(job, mesh)? })
     }
 
     /// Appends every hit on every ray, with the numbers of the mesh's triangles.
     pub fn all_hits(&self, rays: &[Ray], hits: &mut Vec<Hit>) {
         let first = hits.len();
-        self.scene.all_hits(rays, hits);
+        self.scene.all_hits_in_packets(self.width, rays, hits);
         if let Some(numbers) = &self.numbers {
             hits[first..].iter_mut().for_each(|hit| hit.triangle = numbers[hit.triangle as usize]);
         }

@@ -22,6 +22,11 @@ use crate::trace::{Hit, Ray};
 /// The least distance of a hit from the edges of its triangle, in diagonals of the mesh's box.
 const TOLERANCE: f64 = 1e-6;
 
+/// The distance from a block at which rays start, in diagonals of the mesh's box. In Embree's floats the normal of a triangle
+/// with hits, 2 10^-6 diagonals high at least, turns by up to about .1, and what lies far along it seems as much nearer:
+/// behind the start of a ray it would be lost.
+const START: f64 = 0.5;
+
 /// The share of an edge by which barycentrics that are rounded to floats move a point at most.
 const BARYCENTRIC_ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 
@@ -127,13 +132,13 @@ impl Seen<'_> {
 struct View {
     pub centre: DVec3,
     pub radius: f64,
-    /// The distance from the centre at which nothing is left of the block, in radii.
+    /// The distance from the centre at which rays start, in radii: before the block.
     pub reach: f64,
 }
 
 impl Candidates {
     /// All candidates of a block: traced if there is a space for rays, otherwise drawn.
-    pub fn of(pass: &Pass, block: &Block, radius: f64, torus: &Torus, space: Option<&TraceSpace>) -> Self {
+    pub fn of(pass: &Pass, block: &Block, radius: f64, tori: &[Torus], space: Option<&TraceSpace>) -> Self {
         let [low, high] = block.extent.corners().map(exact);
         let centre = 0.5 * low + 0.5 * high;
         let charts = Charts::new(pass.mesh, block, centre, 1.0 / radius);
@@ -141,19 +146,21 @@ impl Candidates {
         let moved = 2.0 * pass.mesh.float_spacing() / radius + charts.longest * BARYCENTRIC_ROUNDING;
         let unit = 1.0 + moved + 1e-9;
         let (box_low, box_high) = pass.mesh.bounds();
-        let tolerance = TOLERANCE * exact(box_low).distance(exact(box_high)) / (radius * unit);
-        let reach = 0.5 * (high - low).length() / radius + 1.0;
+        let diagonal = exact(box_low).distance(exact(box_high)) / radius;
+        let tolerance = TOLERANCE * diagonal / unit;
+        let reach = 0.5 * (high - low).length() / radius + 1.0 + START * diagonal;
         let view = View { centre, radius, reach };
         let traced = space.map(|space| (space, &view));
         let mut candidates = Candidates::default();
-        let mut last = vec![NONE; torus.len()];
+        let mut last = vec![NONE; tori.iter().map(Torus::len).max().unwrap_or(0)];
         for (chart, &axis) in charts.axes.iter().enumerate() {
             let [x, y, z] = block.cube.key();
             let place = [pass.iteration.into(), x, y, z, chart as u64];
+            let projector = LocalProjector::at(pass.options.seed, &place, axis, 1.0 / unit);
             let plane = Plane {
                 mesh: pass.mesh,
-                torus,
-                projector: LocalProjector::at(pass.options.seed, &place, axis, 1.0 / unit),
+                torus: &tori[projector.pattern],
+                projector,
                 tolerance,
                 pieces: &block.items.pieces,
                 facets: charts.facets(chart).collect(),

@@ -17,11 +17,11 @@ pub fn choose(
     pass: &Pass,
     block: &Block,
     set: &SampleSet,
-    torus: &Torus,
+    tori: &[Torus],
     space: Option<&TraceSpace>,
 ) -> (Vec<Sample>, Projected) {
     let radius = set.radius();
-    let candidates = Candidates::of(pass, block, radius, torus, space);
+    let candidates = Candidates::of(pass, block, radius, tori, space);
     let mut marks = Marks::new(&block.extent, radius);
     let [low, high] = block.extent.corners().map(exact);
     let mut surroundings = Surroundings::new(0.5 * low + 0.5 * high, 0.5 * (high - low).max_element(), radius);

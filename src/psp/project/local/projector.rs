@@ -6,6 +6,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::math::direction;
+use crate::psp::project::local::torus::PATTERNS;
 use crate::rng::{Draw, Rng};
 
 /// The shift of all blocks in an iteration, in their sides.
@@ -14,13 +15,15 @@ pub fn shift_of_blocks(seed: u64, iteration: u32) -> [f64; 3] {
     [(); 3].map(|()| rng.unit())
 }
 
-/// A plane that carries the pattern.
+/// A plane that carries a pattern.
 pub struct LocalProjector {
     right: DVec3,
     up: DVec3,
     forward: DVec3,
     offset: DVec2,
     scale: f64,
+    /// The number of its pattern.
+    pub pattern: usize,
 }
 
 impl LocalProjector {
@@ -36,7 +39,7 @@ impl LocalProjector {
         let turn = direction(std::f64::consts::TAU * rng.unit());
         let offset = 1024.0 * DVec2::new(rng.unit(), rng.unit());
         let (right, up) = (turn.x * right + turn.y * up, turn.x * up - turn.y * right);
-        Self { right, up, forward: axis, offset, scale }
+        Self { right, up, forward: axis, offset, scale, pattern: rng.below(PATTERNS as u64) as usize }
     }
 
     /// The axis.

@@ -12,12 +12,12 @@ use crate::points::Points;
 use crate::psp::project::tests::meshes;
 use crate::psp::{self, Engine, Options, Priority, ProjectionOptions, Psp, Report};
 
-fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
+pub fn mesh((positions, triangles): meshes::Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
 /// Meshes with radii at which they have some thousands of samples.
-fn cases() -> Vec<(&'static str, Arc<Mesh>, f64)> {
+pub fn cases() -> Vec<(&'static str, Arc<Mesh>, f64)> {
     vec![
         ("torus", mesh(meshes::torus()), 0.03),
         ("fine torus", mesh(meshes::fine_torus(300, 100)), 0.04),

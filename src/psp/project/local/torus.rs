@@ -1,8 +1,8 @@
-//! The pattern of local projectors: a maximal periodic Poisson-disk set of radius 1, sorted by cells.
+//! The patterns of local projectors: two maximal periodic Poisson-disk sets of radius 1, sorted by cells.
 //!
-//! It is the same for all sets, and kept with the context: to make it takes as long as a tenth of a maximal set of 10^5
-//! samples. Every chart has a random turn and offset of its own into it (`projector.rs`), so that sets of different seeds
-//! have nothing else in common.
+//! They are the same for all sets, and kept with the context: to make them takes as long as a fifth of a maximal set of 10^5
+//! samples. Every chart has one of them, with a random turn and offset of its own into it (`projector.rs`), so that sets of
+//! different seeds have nothing else in common.
 
 use std::sync::Arc;
 
@@ -14,8 +14,14 @@ use crate::psp::project::pattern;
 /// The side of the pattern in radii, and the number of its cells along an axis: more than a chart is long, so that no
 /// chart meets a point of the pattern in two places of a plane.
 const SIDE: i32 = 128;
-/// Any number.
-const SEED: u64 = 0;
+/// The number of patterns.
+pub const PATTERNS: usize = 2;
+/// The seeds of the patterns, chosen by measurement. Charts repeat the chance numbers of 11,400 points: the pair density of
+/// such a set, in shells of a sixteenth of a mean spacing from 1.3 radii to 8 spacings, differs from the mean of many sets
+/// by .034 in the worst shell (median of the seeds 0 to 3009), at best by .019. The mean of two sets whose differences cancel
+/// does so by .011: of all pairs of those seeds, among the half with the smaller mean squares, with 22,824 points as
+/// expected but for 8, this is the best.
+const SEEDS: [u64; PATTERNS] = [2698, 2781];
 
 /// A pattern that repeats along both axes.
 pub struct Torus {
@@ -32,9 +38,10 @@ pub struct Run<'a> {
 }
 
 impl Torus {
-    /// The pattern that the context keeps.
-    pub fn kept(job: &Job) -> Result<Arc<Self>> {
-        job.kept(|| Self::new(job, SEED))
+    /// The patterns that the context keeps.
+    pub fn kept(job: &Job) -> Result<Arc<[Self; PATTERNS]>> {
+        let [first, second] = SEEDS;
+        job.kept(|| Ok([Self::new(&job.part(0.0, 0.5), first)?, Self::new(&job.part(0.5, 1.0), second)?]))
     }
 
     pub fn new(job: &Job, seed: u64) -> Result<Self> {
