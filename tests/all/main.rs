@@ -30,6 +30,7 @@ mod given;
 mod given_levels;
 mod hostile;
 mod house;
+mod interior;
 mod kdrt;
 mod kdrt_classes;
 mod kdrt_count;
