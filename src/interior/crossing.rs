@@ -11,16 +11,17 @@ type Point = [f32; 3];
 const ERROR_2D: f64 = 1e-15;
 const ERROR_3D: f64 = 2e-15;
 
-/// True if the ray from a point crosses a triangle.
+/// The crossing of the ray from a point with a triangle: 1 if the ray leaves on the side that the triangle faces, -1 if it comes
+/// from there, 0 without a crossing.
 #[inline]
-pub fn crosses(point: Point, corners: &[Point; 3]) -> bool {
+pub fn crossing(point: Point, corners: &[Point; 3]) -> i32 {
     let [a, b, c] = corners;
     let side = side_of_edge(point, a, b);
     if side == 0 || side_of_edge(point, b, c) != side || side_of_edge(point, c, a) != side {
-        return false;
+        return 0;
     }
     // Seen along x the triangle has the side of the point inside it; that is the sign of its normal along x.
-    side_of_plane(point, corners) == -side
+    if side_of_plane(point, corners) == -side { side } else { 0 }
 }
 
 /// The side of an edge on which the moved point lies, seen along x: 1 for the left, 0 if the edge is seen as a point.
@@ -33,11 +34,15 @@ fn side_of_edge(point: Point, from: &Point, to: &Point) -> i32 {
     if from[2] != to[2] { if from[2] > to[2] { 1 } else { -1 } } else { sign(f64::from(to[1]) - f64::from(from[1])) }
 }
 
-/// The side of a triangle's plane on which the moved point lies: 1 where its normal leads.
+/// The side of a triangle's plane on which the moved point lies: 1 where its normal leads, 0 if there is no plane.
 #[inline]
-fn side_of_plane(point: Point, corners: &[Point; 3]) -> i32 {
+pub fn side_of_plane(point: Point, corners: &[Point; 3]) -> i32 {
     let [a, b, c] = corners;
-    let from_a = |q: &Point| -> [f64; 3] { std::array::from_fn(|k| f64::from(q[k]) - f64::from(a[k])) };
+    // Spelt out, since functions of arrays are calls.
+    let from_a = |q: &Point| {
+        let along = |k: usize| f64::from(q[k]) - f64::from(a[k]);
+        [along(0), along(1), along(2)]
+    };
     let (u, v, w) = (from_a(b), from_a(c), from_a(&point));
     let (mut volume, mut size) = (0.0, 0.0);
     for k in 0..3 {
@@ -73,7 +78,8 @@ fn side_of_plane_exactly(point: &Point, [a, b, c]: &[Point; 3]) -> i32 {
 /// The sign of the turn from a to b to c, seen along the third axis: 1 to the left.
 #[inline]
 fn turn([x, y]: [usize; 2], a: &Point, b: &Point, c: &Point) -> i32 {
-    let [a, b, c] = [a, b, c].map(|p| [f64::from(p[x]), f64::from(p[y])]);
+    let place = |p: &Point| [f64::from(p[x]), f64::from(p[y])];
+    let (a, b, c) = (place(a), place(b), place(c));
     let (left, right) = ((b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0]));
     let area = left - right;
     if area.abs() > ERROR_2D * (left.abs() + right.abs()) { sign(area) } else { turn_exactly(a, b, c) }
@@ -177,7 +183,7 @@ mod tests {
                 [(1.0, 0.0), (2f32.powi(-140), 0.0), (2f32.powi(120), 0.0), (1.0, 2e6 + 1.0), (0.25, -1e6)]
             {
                 let float = |p: [i32; 3]| p.map(|x| x as f32 * scale + shift);
-                assert_eq!(crosses(float(point), &corners.map(float)), expected, "{point:?} {corners:?} {scale}");
+                assert_eq!(crossing(float(point), &corners.map(float)) != 0, expected, "{point:?} {corners:?} {scale}");
             }
             crossed += usize::from(expected);
         }

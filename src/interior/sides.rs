@@ -6,34 +6,34 @@
 use std::sync::Arc;
 
 use crate::index::Binned;
-use crate::mesh::{Mesh, exact};
+use crate::mesh::Mesh;
 
-/// An edge at its lower vertex: the other vertex, the triangle, and true if it leads up.
-type Edge = (u32, u32, bool);
+/// An edge at its lower vertex: the other vertex, and true if it leads up.
+type Edge = (u32, bool);
 
 /// The triangles that share edges.
 #[derive(Debug)]
 pub struct Sides {
     /// True if an even number of triangles shares each edge.
     pub is_closed: bool,
-    /// Of a mesh that is not closed: the length of boundary of triangles that have some. It is the edges that are not passed
-    /// as often one way as the other, once for each time that is missing, each counted for one of its triangles.
-    pub boundary: Vec<(u32, f64)>,
+    /// Of a mesh that is not closed: the edges that are not passed as often one way as the other, once for each time that is
+    /// missing, in the direction that is.
+    pub boundary: Vec<[u32; 2]>,
 }
 
 impl Sides {
     /// The edges of the triangles that the mask does not leave out.
     pub fn of(mesh: &Mesh) -> Self {
-        let sampled = || mesh.sampled_triangles().map(|number| (number, mesh.triangles()[number as usize]));
+        let sampled = || mesh.sampled_triangles().map(|number| mesh.triangles()[number as usize]);
         let closed = Self { is_closed: true, boundary: Vec::new() };
         // To make vertices at one place one can close a mesh, but not open it.
         if is_even(&edges(mesh.positions().len(), sampled())) {
             return closed;
         }
         let places = places(mesh.positions());
-        let welded = sampled().map(|(number, triangle)| (number, triangle.map(|vertex| places[vertex as usize])));
+        let welded = sampled().map(|triangle| triangle.map(|vertex| places[vertex as usize]));
         let edges = edges(mesh.positions().len(), welded);
-        if is_even(&edges) { closed } else { Self { is_closed: false, boundary: boundary(mesh, &edges) } }
+        if is_even(&edges) { closed } else { Self { is_closed: false, boundary: boundary(&edges) } }
     }
 }
 
@@ -52,12 +52,12 @@ impl Mesh {
     }
 }
 
-/// The edges of triangles with their numbers, at their lower vertices, sorted.
-fn edges(vertices: usize, triangles: impl Iterator<Item = (u32, [u32; 3])> + Clone) -> Binned<Edge> {
-    let of = |(number, [a, b, c]): (u32, [u32; 3])| {
-        [(a, b), (b, c), (c, a)].map(|(from, to)| (from.min(to) as usize, (from.max(to), number, from < to)))
+/// The edges of triangles, at their lower vertices, sorted.
+fn edges(vertices: usize, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> Binned<Edge> {
+    let of = |[a, b, c]: [u32; 3]| {
+        [(a, b), (b, c), (c, a)].map(|(from, to)| (from.min(to) as usize, (from.max(to), from < to)))
     };
-    let mut edges = Binned::new(vertices, triangles.flat_map(of).filter(|&(low, (high, ..))| low != high as usize));
+    let mut edges = Binned::new(vertices, triangles.flat_map(of).filter(|&(low, (high, _))| low != high as usize));
     (0..vertices).for_each(|vertex| edges.bin_mut(vertex).sort_unstable());
     edges
 }
@@ -72,17 +72,14 @@ fn is_even(edges: &Binned<Edge>) -> bool {
 }
 
 /// See [`Sides::boundary`].
-fn boundary(mesh: &Mesh, edges: &Binned<Edge>) -> Vec<(u32, f64)> {
-    let place = |vertex: usize| exact(mesh.positions()[vertex]);
+fn boundary(edges: &Binned<Edge>) -> Vec<[u32; 2]> {
     let mut boundary = Vec::new();
     for vertex in 0..edges.len() {
         for edge in shared(edges.bin(vertex)) {
             let up = edge.iter().filter(|(.., is_up)| *is_up).count();
-            let missing = up.abs_diff(edge.len() - up);
-            if missing > 0 {
-                let length = place(vertex).distance(place(edge[0].0 as usize));
-                boundary.push((edge[0].1, missing as f64 * length));
-            }
+            let (down, ends) = (edge.len() - up, [vertex as u32, edge[0].0]);
+            let missing = if up < down { ends } else { [ends[1], ends[0]] };
+            boundary.extend(std::iter::repeat_n(missing, up.abs_diff(down)));
         }
     }
     boundary
@@ -136,15 +133,18 @@ mod tests {
     }
 
     #[test]
-    fn the_boundary_has_the_lengths_of_edges_that_are_not_passed_both_ways() {
-        let length = |mesh: &Mesh| Sides::of(mesh).boundary.iter().map(|&(_, length)| length).sum::<f64>();
-        let root = 2f64.sqrt();
-        for mesh in [tetrahedron(1), torn(&tetrahedron(1))] {
-            assert!((length(&mesh) - 3.0 * root).abs() < 1e-6);
-        }
-        assert_eq!(length(&tetrahedron(0)), 0.0);
-        // One of three triangles is turned: its edges to the others count twice.
+    fn the_boundary_is_what_is_not_passed_both_ways() {
+        let sorted = |mesh: &Mesh| {
+            let mut boundary = Sides::of(mesh).boundary;
+            boundary.sort_unstable();
+            boundary
+        };
+        assert!(sorted(&tetrahedron(0)).is_empty());
+        // The directions of the missing triangle.
+        assert_eq!(sorted(&tetrahedron(1)), [[1, 2], [2, 3], [3, 1]]);
+        assert_eq!(sorted(&torn(&tetrahedron(1))).len(), 3);
+        // One of three triangles is turned: two of its edges are missing twice.
         let turned = Mesh::new(tetrahedron(1).positions().to_vec(), vec![[0, 1, 2], [0, 1, 3], [0, 3, 2]]).unwrap();
-        assert!((length(&turned) - (3.0 * root + 4.0)).abs() < 1e-6);
+        assert_eq!(sorted(&turned), [[0, 2], [0, 2], [1, 0], [1, 0], [2, 1], [2, 3], [3, 1]]);
     }
 }

@@ -4,7 +4,7 @@
 //! the tree has no pointers, and the boxes of a node's children are tested together.
 
 use crate::index::curve::{SPACE_BITS, morton3, sorted};
-use crate::interior::crossing::crosses;
+use crate::interior::crossing::crossing;
 
 /// The children of a node.
 pub const CHILDREN: usize = 8;
@@ -88,20 +88,24 @@ impl Tree {
         self.levels[level][node].hull()
     }
 
-    /// Visits the triangles whose boxes pass a test, which all boxes around them pass.
+    /// Visits the triangles whose boxes pass a test, which all boxes around them pass: it gives 1 for each child that does.
     #[inline(always)]
-    fn visit(&self, passes: impl Fn(&Boxes) -> [bool; CHILDREN], mut triangle: impl FnMut(usize)) {
+    fn visit(&self, passes: impl Fn(&Boxes, usize) -> u32, mut triangle: impl FnMut(usize)) {
         let (mut stack, mut depth) = ([(0u32, 0u32); MOST_LEVELS * CHILDREN], 1);
         stack[0] = (self.levels.len() as u32 - 1, 0);
         while depth > 0 {
             depth -= 1;
             let (level, node) = stack[depth];
-            let passing = passes(&self.levels[level as usize][node as usize]);
-            for (child, &passes) in passing.iter().enumerate() {
-                if !passes {
-                    continue;
-                }
-                let number = CHILDREN as u32 * node + child as u32;
+            let boxes = &self.levels[level as usize][node as usize];
+            // A sum, which the compiler makes of vectors.
+            let (mut passing, mut child) = (0, 0);
+            while child < CHILDREN {
+                passing += passes(boxes, child) << child;
+                child += 1;
+            }
+            while passing != 0 {
+                let number = CHILDREN as u32 * node + passing.trailing_zeros();
+                passing &= passing - 1;
                 if level == 0 {
                     triangle(number as usize);
                 } else {
@@ -112,27 +116,22 @@ impl Tree {
         }
     }
 
-    /// True if the ray from a point along +x crosses an odd number of triangles.
-    pub fn is_odd(&self, point: [f32; 3]) -> bool {
-        let [x, y, z] = point;
-        let mut odd = false;
-        let is_met = |boxes: &Boxes| {
-            let Boxes { low, high } = boxes;
-            std::array::from_fn(|k| {
-                (low[1][k] <= y) & (y <= high[1][k]) & (low[2][k] <= z) & (z <= high[2][k]) & (x <= high[0][k])
-            })
+    /// The sum of the crossings of the ray from a point along +x.
+    pub fn crossings(&self, point: [f32; 3]) -> i32 {
+        let ([x, y, z], mut sum) = (point, 0);
+        let is_met = |Boxes { low, high }: &Boxes, k: usize| {
+            let (is_beside, is_above) = ((low[1][k] <= y) & (y <= high[1][k]), (low[2][k] <= z) & (z <= high[2][k]));
+            u32::from(is_beside & is_above & (x <= high[0][k]))
         };
-        self.visit(is_met, |triangle| odd ^= crosses(point, &self.corners[triangle]));
-        odd
+        self.visit(is_met, |triangle| sum += crossing(point, &self.corners[triangle]));
+        sum
     }
 
     /// Visits the triangles whose boxes touch a box.
     pub fn for_each_near(&self, [from, to]: [[f32; 3]; 2], triangle: impl FnMut(usize)) {
-        let is_near = |boxes: &Boxes| {
-            std::array::from_fn(|k| {
-                let along = |axis: usize| (boxes.low[axis][k] <= to[axis]) & (from[axis] <= boxes.high[axis][k]);
-                along(0) & along(1) & along(2)
-            })
+        let is_near = |Boxes { low, high }: &Boxes, k: usize| {
+            let along = |axis: usize| (low[axis][k] <= to[axis]) & (from[axis] <= high[axis][k]);
+            u32::from(along(0) & along(1) & along(2))
         };
         self.visit(is_near, triangle);
     }
@@ -188,9 +187,9 @@ mod tests {
                 if probe % 4 == 0 {
                     point = triangles[probe % count][probe % 3];
                 }
-                let crossed = triangles.iter().filter(|triangle| crosses(point, triangle)).count();
-                assert_eq!(tree.is_odd(point), crossed % 2 == 1);
-                odd += crossed % 2;
+                let crossed: i32 = triangles.iter().map(|triangle| crossing(point, triangle)).sum();
+                assert_eq!(tree.crossings(point), crossed);
+                odd += crossed.rem_euclid(2);
 
                 let around = [point, point.map(|x| x + 0.2 * rng.unit() as f32)];
                 let touches = |triangle: &[[f32; 3]; 3]| {

@@ -1,20 +1,26 @@
-//! The generalised winding number of any triangles, by a tree.
+//! The generalised winding number of any triangles.
 //!
 //! Source: Barill et al. 2018, "Fast winding numbers for soups and clouds". The winding number at a point is the solid angle of
 //! all triangles seen from there, over 4π: 1 inside of a closed surface whose triangles face outwards, 0 outside, and between
 //! the two near holes. Triangles of a node that is far away count by its dipole and the first moment of that (their order 1).
 //!
-//! Departure: a bound of its change around the point. The gradient of a solid angle depends on the boundary of the surface
+//! Departures: the boundary of each part of the surface is closed by *caps*, triangles with one corner in common. The winding
+//! number of the surface with its caps is the sum of crossings of a ray; only that of the caps, which is taken away, asks a tree
+//! of angles. So a large mesh with small holes costs little more than a closed one, and loose triangles are their own caps.
+//!
+//! And there is a bound of the change around a point. The gradient of a solid angle depends on the boundary of the surface
 //! alone, as the magnetic field of a current along it (Biot and Savart): edges of length L at a distance d change it by
-//! L / d² per length at most. So the boundary of each node is known (`sides.rs`).
+//! L / d² per length at most.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use crate::interior::crossing::side_of_plane;
 use crate::interior::tree::{CHILDREN, Tree, hull};
 use crate::math::atan2;
-use crate::mesh::exact;
+use crate::mesh::{Mesh, exact};
 
 /// A node is far if it is this many times farther than its radius.
 const FAR: f64 = 3.0;
@@ -39,10 +45,13 @@ struct Moments {
     boundary: f64,
 }
 
-/// The moments of a tree's nodes, by its levels, and the boundaries of its triangles.
+/// The caps of a surface by their angles.
 #[derive(Debug)]
-pub struct Winding {
+pub struct Caps {
+    pub tree: Tree,
+    /// The moments of the tree's nodes, by its levels.
     moments: Vec<Vec<Moments>>,
+    /// The length of the boundary that each triangle closes.
     boundary: Vec<f64>,
 }
 
@@ -55,9 +64,24 @@ pub struct Wound {
     pub change: f64,
 }
 
-impl Winding {
-    /// The moments of a tree, given the boundary of each of its triangles.
-    pub fn new(tree: &Tree, boundary: Vec<f64>) -> Self {
+impl Caps {
+    /// The caps of the boundary edges of a mesh (`sides.rs`).
+    pub fn new(mesh: &Mesh, boundary: &[[u32; 2]]) -> Self {
+        // Edges that are connected have the first vertex of any in common.
+        let mut parents = BTreeMap::new();
+        for &[from, to] in boundary {
+            let [from, to] = [root(&mut parents, from), root(&mut parents, to)];
+            parents.insert(from.max(to), from.min(to));
+        }
+        let place = |vertex: u32| mesh.positions()[vertex as usize];
+        let cap = |&[from, to]: &[u32; 2]| [root(&mut parents, from), from, to].map(place);
+        Self::of(&boundary.iter().map(cap).collect::<Vec<_>>(), |[_, from, to]| exact(*from).distance(exact(*to)))
+    }
+
+    /// Triangles as caps, with the boundary of each.
+    fn of(triangles: &[[[f32; 3]; 3]], boundary: impl Fn(&[[f32; 3]; 3]) -> f64) -> Self {
+        let (tree, _) = Tree::new(triangles);
+        let boundary: Vec<f64> = tree.corners.iter().map(boundary).collect();
         let mut moments: Vec<Vec<Moments>> = Vec::new();
         for level in 0..tree.levels() {
             let below = moments.last();
@@ -72,12 +96,12 @@ impl Winding {
             let nodes = (0..tree.nodes(level)).map(node).collect();
             moments.push(nodes);
         }
-        Self { moments, boundary }
+        Self { tree, moments, boundary }
     }
 
-    /// The winding number at a point, and its change within a distance.
-    pub fn at(&self, tree: &Tree, point: [f32; 3], reach: f64) -> Wound {
-        let (point, mut angle, mut change) = (exact(point), 0.0, 0.0);
+    /// The winding number of the caps at a point, and its change within a distance.
+    pub fn at(&self, place: [f32; 3], reach: f64) -> Wound {
+        let (point, mut angle, mut change) = (exact(place), 0.0, 0.0);
         let mut grow = |length: f64, distance: f64| {
             if length > 0.0 {
                 let nearest = distance - reach;
@@ -100,9 +124,9 @@ impl Winding {
                         .map(|n| (level - 1, n)),
                 );
             } else {
-                for triangle in CHILDREN * node..(CHILDREN * (node + 1)).min(tree.corners.len()) {
-                    let corners = &tree.corners[triangle];
-                    angle += solid_angle(corners.map(|corner| exact(corner) - point));
+                for triangle in CHILDREN * node..(CHILDREN * (node + 1)).min(self.tree.corners.len()) {
+                    let corners = &self.tree.corners[triangle];
+                    angle += solid_angle(place, corners);
                     if self.boundary[triangle] > 0.0 {
                         let [low, high] = hull(corners).map(exact);
                         grow(self.boundary[triangle], (point - point.clamp(low, high)).length());
@@ -150,14 +174,27 @@ fn sum(parts: &[Moments], hull: [[f32; 3]; 2]) -> Moments {
     total
 }
 
-/// The solid angle of a triangle by its corners, seen from the origin: van Oosterom and Strackee 1983.
-fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
+/// The solid angle of a triangle seen from a point: van Oosterom and Strackee 1983. Its sign is that of the side on which the
+/// point lies as crossings see it, so that what is taken away beside a cap is what was added.
+fn solid_angle(point: [f32; 3], corners: &[[f32; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| exact(corner) - exact(point));
     let lengths = [a.length(), b.length(), c.length()];
-    let volume = a.dot(b.cross(c));
+    let volume = a.dot(b.cross(c)).abs();
     let cosine =
         lengths[0] * lengths[1] * lengths[2] + a.dot(b) * lengths[2] + b.dot(c) * lengths[0] + c.dot(a) * lengths[1];
-    // On the triangle itself there is none.
-    if volume == 0.0 { 0.0 } else { 2.0 * atan2(volume, cosine) }
+    -f64::from(side_of_plane(point, corners)) * 2.0 * atan2(volume, cosine)
+}
+
+/// The first vertex of all that are connected with one.
+fn root(parents: &mut BTreeMap<u32, u32>, mut vertex: u32) -> u32 {
+    while let Some(&parent) = parents.get(&vertex)
+        && parent != vertex
+    {
+        let above = parents.get(&parent).copied().unwrap_or(parent);
+        parents.insert(vertex, above);
+        vertex = parent;
+    }
+    vertex
 }
 
 #[cfg(test)]
@@ -198,7 +235,7 @@ mod tests {
     }
 
     fn all(triangles: &[[[f32; 3]; 3]], point: [f32; 3]) -> f64 {
-        let angle = |corners: &[[f32; 3]; 3]| solid_angle(corners.map(|corner| exact(corner) - exact(point)));
+        let angle = |corners: &[[f32; 3]; 3]| solid_angle(point, corners);
         triangles.iter().map(angle).sum::<f64>() / SPHERE
     }
 
@@ -208,12 +245,11 @@ mod tests {
         for (triangles, error) in
             [(bowl(30, 1.0), 0.015), (bowl(30, 0.3), 0.01), (soup(60), 0.001), (soup(2000), 0.002)]
         {
-            let (tree, _) = Tree::new(&triangles);
-            let winding = Winding::new(&tree, vec![0.0; triangles.len()]);
+            let caps = Caps::of(&triangles, |_| 0.0);
             let mut worst: f64 = 0.0;
             for _ in 0..400 {
                 let point = [0; 3].map(|_: i32| 3.0 * rng.unit() as f32 - 1.5);
-                worst = worst.max((winding.at(&tree, point, 0.0).number - all(&triangles, point)).abs());
+                worst = worst.max((caps.at(point, 0.0).number - all(&triangles, point)).abs());
             }
             assert!(worst < error, "{worst}");
         }
@@ -226,15 +262,13 @@ mod tests {
         let mut rng = Rng::at(2, Draw::Probe, &[]);
         let mut known = 0;
         for triangles in [bowl(30, 0.3), soup(20)] {
-            let (tree, _) = Tree::new(&triangles);
-            let lengths = tree.corners.iter().map(boundary).collect();
-            let winding = Winding::new(&tree, lengths);
+            let caps = Caps::of(&triangles, boundary);
             for _ in 0..2000 {
                 let reach = 0.2 * rng.unit() * rng.unit();
                 let point = [0; 3].map(|_: i32| 3.0 * rng.unit() as f32 - 1.5);
                 let away = DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, rng.unit() - 0.5).normalize() * reach;
                 let other = (exact(point) + away).as_vec3().to_array();
-                let Wound { change, .. } = winding.at(&tree, point, reach);
+                let Wound { change, .. } = caps.at(point, reach);
                 // A jump is a crossing.
                 let moved = (all(&triangles, point) - all(&triangles, other)).abs();
                 let crosses = moved > 0.5;

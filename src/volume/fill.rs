@@ -89,26 +89,54 @@ impl<S: Shape> Fill<'_, S> {
         let open = self.shape.cells(lanes, self.grid, self.grid.open_cells());
         match self.pass {
             _ if open.is_empty() => (),
-            Pass::First => self.throw_first::<L, GIVEN>(lanes, &levels[0], &open, &mut accepted),
+            Pass::First => self.throw_first::<L, GIVEN>(lanes, &levels, &open, &mut accepted),
             Pass::Last => self.close::<L, GIVEN>(lanes, &levels, open, &mut accepted),
         }
         accepted
     }
 
-    /// Throws darts on all open cells.
+    /// Throws darts on all open cells, and on the parts of cut ones that may lie in the shape.
     #[inline(always)]
     fn throw_first<L: Lanes, const GIVEN: bool>(
         &mut self,
         lanes: L,
-        cells: &Level,
+        levels: &[Level],
         open: &Voxels,
         accepted: &mut Vec<Centre>,
     ) {
+        let (cells, mut parts) = (&levels[0], Voxels::default());
+        let (per_cell, mut index) = (u64::from(cells.all.count_ones()), 0);
+        while index < open.cut.len() && !cells.is_last {
+            let [inside, cut] = self.shape.parts(lanes, self.grid, cells, open.cut[index], cells.all);
+            cells.push_parts(open.cut[index], inside, &mut parts.inside);
+            cells.push_parts(open.cut[index], cut, &mut parts.cut);
+            index += 1;
+        }
         let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
         let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
-        let share = open.len() as f64 / self.grid.cells() as f64;
-        let left = (FIRST_DARTS * expected * share).ceil() as u64;
-        self.throw_all::<L, GIVEN>(lanes, cells, open, left, accepted);
+        let whole = open.inside.len() as u64 * per_cell;
+        let share = (whole + parts.len() as u64) as f64 / (self.grid.cells() as u64 * per_cell) as f64;
+        let mut left = (FIRST_DARTS * expected * share).ceil() as u64;
+        if parts.is_empty() {
+            let inside = &open.inside;
+            while left > 0 {
+                left -= 1;
+                let cell = inside[self.rng.below(inside.len() as u64) as usize];
+                self.throw::<L, GIVEN>(lanes, cells, cell, false, accepted);
+            }
+            return;
+        }
+        while left > 0 {
+            left -= 1;
+            let number = self.rng.below(whole + parts.len() as u64);
+            if number < whole {
+                let cell = open.inside[(number / per_cell) as usize];
+                self.throw::<L, GIVEN>(lanes, cells, cell, false, accepted);
+            } else {
+                let (voxel, is_cut) = parts.get((number - whole) as usize);
+                self.throw::<L, GIVEN>(lanes, &levels[1], voxel, is_cut, accepted);
+            }
+        }
     }
 
     /// Throws darts on open voxels and divides them, until none is open.
@@ -167,14 +195,25 @@ impl<S: Shape> Fill<'_, S> {
         while left > 0 {
             left -= 1;
             let number = self.rng.below(open.len() as u64) as usize;
-            let is_cut = number >= open.inside.len();
-            let voxel = if is_cut { open.cut[number - open.inside.len()] } else { open.inside[number] };
-            let dart = self.grid.dart(level, voxel, self.rng.bits());
-            if let Some(sample) = self.grid.hit::<L, GIVEN>(lanes, &dart)
-                && (!is_cut || self.shape.holds(sample))
-            {
-                self.accept(lanes, sample, accepted);
-            }
+            let (voxel, is_cut) = open.get(number);
+            self.throw::<L, GIVEN>(lanes, level, voxel, is_cut, accepted);
+        }
+    }
+
+    #[inline(always)]
+    fn throw<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        level: &Level,
+        voxel: Voxel,
+        is_cut: bool,
+        accepted: &mut Vec<Centre>,
+    ) {
+        let dart = self.grid.dart(level, voxel, self.rng.bits());
+        if let Some(sample) = self.grid.hit::<L, GIVEN>(lanes, &dart)
+            && (!is_cut || self.shape.holds(sample))
+        {
+            self.accept(lanes, sample, accepted);
         }
     }
 

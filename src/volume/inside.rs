@@ -78,7 +78,8 @@ impl<'a> Solid<'a> {
         let (triangles, met, known) = Default::default();
         let margin = (Grid::margin(lattice.radius) / lattice.radius + ERROR) as f32;
         let tolerance = self.tolerance as f32;
-        Inside { interior: self.interior, lattice, tolerance, region, margin, triangles, met, known }
+        let half = std::array::from_fn(|axis| 0.5 * f64::from(region.length(axis)) / lattice.radius);
+        Inside { interior: self.interior, lattice, tolerance, region, half, side: half, margin, triangles, met, known }
     }
 }
 
@@ -89,6 +90,9 @@ pub struct Inside<'a> {
     /// The largest side of cut voxels that are dropped, in radii.
     tolerance: f32,
     region: Rect<3>,
+    /// Half the sides of the region and the sides of a cell, in radii.
+    half: [f64; 3],
+    side: [f64; 3],
     /// In radii, by which voxels are wider on all sides.
     margin: f32,
     triangles: Vec<Sides>,
@@ -116,23 +120,21 @@ impl Inside<'_> {
         });
     }
 
-    /// Half the sides of the region, in radii.
-    fn half(&self) -> [f64; 3] {
-        std::array::from_fn(|axis| 0.5 * f64::from(self.region.length(axis)) / self.lattice.radius)
-    }
-
     /// The vector from the region's centre to a cell's, in radii.
+    #[inline(always)]
     fn cell_centre(&self, grid: &Grid, cell: usize) -> [f32; 3] {
-        let (place, counts, half) = (grid.place(cell), grid.counts(), self.half());
-        std::array::from_fn(|axis| {
-            ((f64::from(place[axis]) + 0.5) * 2.0 * half[axis] / counts[axis] as f64 - half[axis]) as f32
-        })
+        let (place, mut centre, mut axis) = (grid.place(cell), [0.0; 3], 0);
+        while axis < 3 {
+            centre[axis] = ((f64::from(place[axis]) + 0.5) * self.side[axis] - self.half[axis]) as f32;
+            axis += 1;
+        }
+        centre
     }
 
     /// The side of all that a path leads to which stays within a distance, in radii, of a place, also in radii from the
     /// region's centre, and meets no triangle.
     fn side(&self, place: [f32; 3], reach: f32) -> Option<bool> {
-        let (half, Self { lattice, region, .. }) = (self.half(), self);
+        let Self { half, lattice, region, .. } = self;
         let point = std::array::from_fn(|axis| {
             let along = (f64::from(place[axis]) + half[axis]) * lattice.radius;
             region.min[axis] + (along as i32).clamp(0, region.length(axis) - 1)
@@ -144,16 +146,22 @@ impl Inside<'_> {
     /// The parts of a voxel, `centre` from the region's, that triangles meet, of those in `wanted`.
     #[inline(always)]
     fn met_parts<L: Lanes>(&self, lanes: L, level: &Level, cell: usize, centre: [f32; 3], wanted: u64) -> u64 {
-        let halves = level.part_halves.map(|half| half + self.margin);
-        let columns = [0, 1].map(|axis: usize| lanes.add(lanes.splat(centre[axis]), lanes.load(&level.columns[axis])));
-        let mut cut = 0u64;
-        for &number in self.met.bin(cell) {
+        let ([x, y, z], margin) = (level.part_halves, self.margin);
+        let halves = [x + margin, y + margin, z + margin];
+        let columns = [
+            lanes.add(lanes.splat(centre[0]), lanes.load(&level.columns[0])),
+            lanes.add(lanes.splat(centre[1]), lanes.load(&level.columns[1])),
+        ];
+        let (mut cut, met, mut index) = (0u64, self.met.bin(cell), 0);
+        while index < met.len() {
+            let number = met[index];
+            index += 1;
             let triangle = &self.triangles[number as usize];
             let mut parts = wanted & !cut & triangle.box_parts(level, centre, halves);
-            for axis in &triangle.axes {
-                if parts == 0 {
-                    break;
-                }
+            let mut number = 0;
+            while number < triangle.axes.len() && parts != 0 {
+                let axis = &triangle.axes[number];
+                number += 1;
                 let [x, y, z] = axis.along;
                 let radius = x.abs() * halves[0] + y.abs() * halves[1] + z.abs() * halves[2];
                 let sums = lanes.add(lanes.mul(columns[0], lanes.splat(x)), lanes.mul(columns[1], lanes.splat(y)));
@@ -251,8 +259,9 @@ impl Inside<'_> {
 impl Shape for Inside<'_> {
     #[inline(always)]
     fn cells<L: Lanes>(&mut self, _: L, grid: &Grid, open: Vec<Voxel>) -> Voxels {
+        let (cells, counts) = (grid.cells(), grid.counts());
+        self.side = std::array::from_fn(|axis| 2.0 * self.half[axis] / counts[axis] as f64);
         self.gather();
-        let cells = grid.cells();
         self.known = vec![[0; 2]; cells];
         self.bin(grid);
         let mut voxels = Voxels::default();
@@ -272,7 +281,7 @@ impl Shape for Inside<'_> {
     fn parts<L: Lanes>(&mut self, lanes: L, grid: &Grid, level: &Level, voxel: Voxel, open: u64) -> [u64; 2] {
         let cell = voxel.cell as usize;
         let (from_cell, in_cell) = (self.cell_centre(grid, cell), VoxelBox::new(level, voxel).centre);
-        let centre = std::array::from_fn(|axis| from_cell[axis] + in_cell[axis]);
+        let centre = [from_cell[0] + in_cell[0], from_cell[1] + in_cell[1], from_cell[2] + in_cell[2]];
         let cut = self.met_parts(lanes, level, cell, centre, level.all);
         let free = level.all & !cut;
         let of_cell = level.counts == [1; 3];
@@ -281,8 +290,8 @@ impl Shape for Inside<'_> {
             _ if !is_divided => [0; 2],
             [1, 1, 1] => self.known_around(grid, cell, None),
             [4, 4, 4] => {
-                let [x, y, z] = voxel.numbers.map(u32::from);
-                self.known_around(grid, cell, Some(x + 4 * y + 16 * z))
+                let [x, y, z] = voxel.numbers;
+                self.known_around(grid, cell, Some(u32::from(x + 4 * y + 16 * z)))
             }
             _ => [0; 2],
         };
@@ -290,7 +299,8 @@ impl Shape for Inside<'_> {
         if of_cell && is_divided {
             self.known[cell] = [inside, outside];
         }
-        let small = (0..3).all(|axis| 2.0 * level.part_halves[axis] <= self.tolerance);
+        let [x, y, z] = level.part_halves;
+        let small = 2.0 * x.max(y).max(z) <= self.tolerance;
         [inside & open, if small { 0 } else { (cut | unsure) & open }]
     }
 
@@ -302,8 +312,7 @@ impl Shape for Inside<'_> {
 impl Inside<'_> {
     /// Puts each triangle into the cells that it meets.
     fn bin(&mut self, grid: &Grid) {
-        let (counts, half) = (grid.counts(), self.half());
-        let side: [f64; 3] = std::array::from_fn(|axis| 2.0 * half[axis] / counts[axis] as f64);
+        let (counts, Self { half, side, .. }) = (grid.counts(), &*self);
         let margin = f64::from(self.margin);
         let halves: [f32; 3] = side.map(|side| (0.5 * side) as f32 + self.margin);
         let mut met = Vec::new();
@@ -338,9 +347,8 @@ impl Inside<'_> {
         let (counts, cells) = (grid.counts(), grid.cells());
         let strides = [1, counts[0], counts[0] * counts[1]];
         let half_diagonal = {
-            let half = self.half();
-            let squares = (0..3).map(|axis| (half[axis] / counts[axis] as f64) * (half[axis] / counts[axis] as f64));
-            squares.sum::<f64>().sqrt() as f32
+            let squares = self.side.iter().map(|side| side * side).sum::<f64>();
+            (0.5 * squares.sqrt()) as f32
         };
         let mut seen: Vec<bool> = (0..cells).map(|cell| !self.met.bin(cell).is_empty()).collect();
         for first in 0..cells {
@@ -430,29 +438,34 @@ impl Sides {
     /// The parts of a voxel that the box around the triangle meets.
     #[inline(always)]
     fn box_parts(&self, level: &Level, centre: [f32; 3], halves: [f32; 3]) -> u64 {
-        let mut parts = u64::MAX;
-        for axis in 0..3 {
-            let mut met = 0;
-            for number in 0..4 {
-                let place = centre[axis] + level.offset(axis, number);
-                if self.low[axis] <= place + halves[axis] && place - halves[axis] <= self.high[axis] {
-                    // All parts with this number along the axis.
-                    met |= FACES[axis][0] << (number as u32 * STEPS[axis]);
-                }
+        let (mut parts, mut axis) = (u64::MAX, 0);
+        while axis < 3 {
+            let (low, high) =
+                (self.low[axis] - halves[axis] - centre[axis], self.high[axis] + halves[axis] - centre[axis]);
+            let (mut met, mut number) = (0, 0);
+            while number < 4 {
+                let place = level.offset(axis, number);
+                // All parts with this number along the axis.
+                let slice = FACES[axis][0] << (number as u32 * STEPS[axis]);
+                met |= if low <= place && place <= high { slice } else { 0 };
+                number += 1;
             }
             parts &= met;
+            axis += 1;
         }
         parts
     }
 }
 
 /// The parts that are connected with those of `from` by faces, through those of `free`.
+#[inline(always)]
 fn flood(from: u64, free: u64) -> u64 {
     let mut reached = from;
     loop {
-        let mut next = reached;
-        for axis in 0..3 {
+        let (mut next, mut axis) = (reached, 0);
+        while axis < 3 {
             next |= (reached & !FACES[axis][1]) << STEPS[axis] | (reached & !FACES[axis][0]) >> STEPS[axis];
+            axis += 1;
         }
         next &= free;
         if next == reached {

@@ -19,6 +19,13 @@ impl Voxels {
         self.inside.len() + self.cut.len()
     }
 
+    /// One of them, and true if it is cut.
+    #[inline(always)]
+    pub fn get(&self, number: usize) -> (Voxel, bool) {
+        let inside = self.inside.len();
+        if number < inside { (self.inside[number], false) } else { (self.cut[number - inside], true) }
+    }
+
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
