@@ -6,7 +6,7 @@
 //! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
 //! | [`dcr`] | a point set, in the plane or on a mesh, relaxed by distance constraints | thesis ch. 4 |
 //! | [`mod@thin`] | some points of a cloud, far from each other and near to all the others | Gonzalez 1985 |
-//! | [`volume`] | maximal Poisson-disk sets of cuboids | Ebeida et al. 2012 |
+//! | [`volume`] | maximal Poisson-disk sets of cuboids and of the inside of meshes | Ebeida et al. 2012 |
 //! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
 //! | [`analysis`] | spacing, coverage, spectra, distances, triangles and bond order of any set | |
 //!

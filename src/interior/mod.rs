@@ -95,15 +95,25 @@ impl Interior {
         context.run(progress, |job| job.flat_map(chunks.len(), of))
     }
 
-    /// True if all points are inside that a path from a point leads to without crossing a triangle or leaving the ball of this
-    /// radius around it, false if they are all outside; `None` if that is not certain.
-    pub(crate) fn side(&self, point: [f32; 3], reach: f64) -> Option<bool> {
+    /// The winding number of the caps in a ball, if the same side follows from it for all points of the ball between the same
+    /// triangles: see [`Interior::side_among`]. 0 for a closed mesh.
+    pub(crate) fn caps_around(&self, point: [f32; 3], reach: f64) -> Option<f64> {
         let Some(caps) = &self.caps else {
-            return Some(self.contains(point));
+            return Some(0.0);
         };
-        let wound = self.wound(caps, point, reach);
-        let beyond = wound.number.abs() - WOUND;
-        (beyond.abs() > wound.change + 2.0 * WINDING_ERROR).then_some(beyond > 0.0)
+        let Wound { number, change } = caps.at(point, reach);
+        let from_half = (number - number.floor() - WOUND).abs();
+        (from_half > change + 2.0 * WINDING_ERROR).then_some(number)
+    }
+
+    /// True if a point is inside that lies in a ball with this winding number of the caps. It takes no more than for a closed
+    /// mesh.
+    pub(crate) fn side_among(&self, point: [f32; 3], caps_around: f64) -> bool {
+        let Some(caps) = &self.caps else {
+            return self.contains(point);
+        };
+        let closed = self.tree.crossings(point) + caps.tree.crossings(point);
+        (f64::from(closed) - caps_around).abs() >= WOUND
     }
 
     /// Visits the corners of the triangles whose boxes touch a box.

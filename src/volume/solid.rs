@@ -11,7 +11,7 @@ use crate::levels::Amount;
 use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::plane::float_spacing;
-use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points};
+use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius};
 use crate::psp;
 use crate::setters::setters;
 use crate::volume::inside::Solid;
@@ -137,6 +137,9 @@ pub fn sample_inside(
         return Err(Error::invalid("tolerance", reason));
     }
     given.check()?;
+    if let Amount::Radius(radius) = amount {
+        check_radius(radius)?;
+    }
     let domain = bounds(mesh);
     let mut positions = Vec::new();
     if surface == Surface::First {

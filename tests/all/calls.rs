@@ -29,7 +29,7 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
 use azulejo::thin::{self, thin};
 use azulejo::volume;
-use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Order, Points, Progress, Region, Result};
+use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Interior, Order, Points, Progress, Region, Result};
 
 use crate::common::meshes;
 use crate::common::sets::random_points;
@@ -524,19 +524,45 @@ const RELAXATION: &[Call] = &[
     },
 ];
 
-const VOLUME: &[Call] = &[Call {
-    name: "volume::sample",
-    reports: 15,
-    run: |c, p| samples(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
-    refused: &[
-        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
-        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
-        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
-        ("domain_max: ", |c, p| {
-            said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
-        }),
-    ],
-}];
+const VOLUME: &[Call] = &[
+    Call {
+        name: "volume::sample",
+        reports: 15,
+        run: |c, p| samples(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
+        refused: &[
+            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
+            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
+            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
+            ("domain_max: ", |c, p| {
+                said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
+            }),
+        ],
+    },
+    Call {
+        name: "volume::sample_inside",
+        reports: 5,
+        run: |c, p| {
+            samples(volume::sample_inside(
+                c,
+                &MESH,
+                &volume::InsideOptions::new(0.03).surface(volume::Surface::First),
+                p,
+            ))
+        },
+        refused: &[
+            ("radius: ", |c, p| said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(-0.1), p))),
+            ("tolerance: ", |c, p| {
+                said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
+            }),
+        ],
+    },
+    Call {
+        name: "interior::contains_each",
+        reports: 3,
+        run: |c, p| said(Interior::of(&MESH).contains_each(c, &[[0.1; 3]; 10_000], p)),
+        refused: &[("positions: ", |c, p| said(Interior::of(&MESH).contains_each(c, &[[f32::NAN; 3]], p)))],
+    },
+];
 
 const ANALYSIS: &[Call] = &[
     Call {

@@ -63,4 +63,5 @@ mod thin;
 mod traces;
 mod volume;
 mod volume_given;
+mod volume_inside;
 mod volume_order;
