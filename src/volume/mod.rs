@@ -9,6 +9,7 @@
 //! All positions are points of the integer lattice of the plane, with a third axis (`plane/lattice.rs`).
 
 mod blocks;
+mod body;
 mod fill;
 mod grid;
 mod inside;
@@ -33,8 +34,8 @@ use crate::plane::{GivenDisks, Lattice, float_spacing};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius, finest_radius};
 use crate::setters::setters;
 use crate::volume::set::{Sample, Set, Space};
-use crate::volume::solid::Body;
-pub use crate::volume::solid::{InsideOptions, InsideReport, Surface, sample_inside};
+use body::Body;
+pub use solid::{InsideOptions, InsideReport, Surface, sample_inside};
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
 /// before they are put to the others, and positions.
@@ -190,7 +191,7 @@ fn fill(
     // Beside a count each given sample has a clearance.
     let radius = if let Amount::Radius(radius) = amount { radius } else { finest };
     let (has_given, given) = (!given.positions.is_empty(), GivenDisks::new(&domain, &lattice, radius, &given));
-    let space = Space { lattice: &lattice, given: &given, solid: body.map(|body| body.solid) };
+    let space = Space { lattice: &lattice, given: &given, solid: body.map(Body::solid) };
     if let (Amount::Radius(radius), Order::Any) = (amount, order) {
         let set = context.run(progress, |job| Set::maximal(job, space, seed))?;
         return Ok((set.into_positions().into(), [radius; 2]));
@@ -253,7 +254,7 @@ fn require(
 /// A cuboid, or a body in it, that is filled level by level.
 struct Cuboid<'a> {
     domain: Domain<3>,
-    body: Option<&'a Body<'a>>,
+    body: Option<&'a Body>,
     /// Its lattice is of any radius.
     space: Space<'a>,
     has_given: bool,

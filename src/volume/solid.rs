@@ -5,30 +5,19 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::host::Stopwatch;
-use crate::interior::Interior;
 use crate::job::{Context, Progress};
 use crate::levels::Amount;
 use crate::mesh::Mesh;
 use crate::order::Order;
-use crate::plane::float_spacing;
-use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius};
+use crate::points::{Points, check_radius};
 use crate::psp;
 use crate::setters::setters;
-use crate::volume::inside::Solid;
+use crate::volume::body::Body;
 use crate::volume::{Options, fill};
 
 /// The tolerances that there are, in radii, and the default.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1.0 / 256.0..=0.5;
 const DEFAULT_TOLERANCE: f64 = 1.0 / 16.0;
-
-/// The probes along an axis of the box around a mesh by which its volume is estimated.
-const PROBES: u32 = 16;
-
-/// The radii by which a body has as many samples as one that is larger all around and has no boundary.
-const BEYOND: f64 = 0.35;
-
-/// The most bytes per triangle of what is made for the inside of a mesh.
-const BYTES_PER_TRIANGLE: f64 = 200.0;
 
 /// The share of the work for samples of the surface.
 const OF_SURFACE: f64 = 0.2;
@@ -101,7 +90,7 @@ pub struct InsideReport {
     pub depth: f64,
     /// The number of samples of the surface, which come first.
     pub surface_samples: usize,
-    /// True if the mesh is closed, so that it is exactly known what is inside ([`Interior::contains`]).
+    /// True if the mesh is closed, so that it is exactly known what is inside ([`Interior::contains`](crate::Interior::contains)).
     pub is_closed: bool,
     /// Wall time in seconds.
     pub seconds: f64,
@@ -109,17 +98,17 @@ pub struct InsideReport {
 
 /// A maximal Poisson-disk set of the inside of a mesh.
 ///
-/// * Inside: each sample is, by [`Interior::contains`], but those of the surface.
+/// * Inside: each sample is, by [`Interior::contains`](crate::Interior::contains), but those of the surface.
 /// * Conflict-free: all distances of the returned floats are at least `radius`, in `f64`, without tolerance.
 /// * Maximal: no place inside is farther than `radius` + 7 float spacings at the mesh's largest coordinate from all samples, unless
 ///   it is nearer to the surface than the report's `depth`. Near holes of a mesh that is not closed the surface is where the winding
 ///   number is 1/2, up to .04.
 ///
-/// About [`MAXIMAL_DENSITY_IN_SPACE`] samples per cubed radius, and more beside the surface. All else is as for
+/// About [`MAXIMAL_DENSITY_IN_SPACE`](crate::MAXIMAL_DENSITY_IN_SPACE) samples per cubed radius, and more beside the surface. All else is as for
 /// [`sample`](super::sample): order, count, ranks, given samples. The prefix of a progressive set leaves places open at the surface
 /// that are less deep than sqrt(3) tolerances of its own covering radius.
 ///
-/// O(n) for n samples and O(t log t) for t triangles, the latter once for a mesh: [`Interior::of`].
+/// O(n) for n samples and O(t log t) for t triangles, the latter once for a mesh: [`Interior::of`](crate::Interior::of).
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an option out of range, also for [`Surface::First`] with a count or in progressive order, and for
@@ -140,7 +129,6 @@ pub fn sample_inside(
     if let Amount::Radius(radius) = amount {
         check_radius(radius)?;
     }
-    let domain = bounds(mesh);
     let mut positions = Vec::new();
     if surface == Surface::First {
         let (Amount::Radius(radius), Order::Any) = (amount, order) else {
@@ -157,9 +145,8 @@ pub fn sample_inside(
     let around = Given { positions: &all, clearances: clearances.as_deref() };
     let around = if surface_samples == 0 { given } else { around };
 
-    let interior = Interior::of(mesh);
-    let body = Body::new(mesh, &interior, tolerance);
-    let options = Options::of(amount).domain(domain).seed(seed).order(order).quotient(quotient).given(around);
+    let body = Body::new(mesh, tolerance);
+    let options = Options::of(amount).domain(body.domain).seed(seed).order(order).quotient(quotient).given(around);
     let from = if surface == Surface::First { OF_SURFACE } else { 0.0 };
     let rest = progress.map(|progress| move |share: f64| progress(from + (1.0 - from) * share));
     let rest = rest.as_ref().map(|rest| rest as &Progress);
@@ -168,9 +155,7 @@ pub fn sample_inside(
         positions.append(&mut points.positions);
         points.positions = positions;
     }
-    let spacing = float_spacing(domain.min.iter().chain(&domain.max));
-    let depth = 3f64.sqrt() * (1.001 * tolerance * covering_radius + 4.0 * spacing);
-    let (is_closed, seconds) = (interior.is_closed(), stopwatch.seconds());
+    let (depth, is_closed, seconds) = (body.depth(covering_radius), body.is_closed(), stopwatch.seconds());
     Ok((points, InsideReport { radius, covering_radius, depth, surface_samples, is_closed, seconds }))
 }
 
@@ -181,46 +166,4 @@ fn beside(given: &Given<3>, surface: &[[f32; 3]], amount: Amount) -> (Vec<[f32; 
     };
     let clearances = given.clearances.map(|clearances| [clearances, &vec![radius; surface.len()]].concat());
     ([given.positions, surface].concat(), clearances)
-}
-
-/// The box around a mesh. The upper planes do not belong to it, as they do not to the inside.
-fn bounds(mesh: &Mesh) -> Domain<3> {
-    let (low, high) = mesh.bounds();
-    let (min, mut max) = (low.map(f64::from), high.map(f64::from));
-    let longest = (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f64::max);
-    for axis in 0..3 {
-        // A flat mesh, in a box that is none.
-        max[axis] = max[axis].max(min[axis] + 1e-6 * longest);
-    }
-    Domain { min, max, boundary: Boundary::Bounded }
-}
-
-/// A mesh as what is filled, and its measures.
-pub struct Body<'a> {
-    pub solid: Solid<'a>,
-    volume: f64,
-    area: f64,
-    /// An estimate of the memory of its inside.
-    pub bytes: f64,
-}
-
-impl<'a> Body<'a> {
-    fn new(mesh: &Mesh, interior: &'a Interior, tolerance: f64) -> Self {
-        let domain = bounds(mesh);
-        let place = |axis: usize, number: u32| {
-            (domain.min[axis] + domain.extent()[axis] * (f64::from(number) + 0.5) / f64::from(PROBES)) as f32
-        };
-        let probe = |k: u32| [place(0, k % PROBES), place(1, k / PROBES % PROBES), place(2, k / PROBES / PROBES)];
-        let count = PROBES * PROBES * PROBES;
-        let inside = (0..count).filter(|&number| interior.contains(probe(number))).count();
-        let volume = domain.extent().iter().product::<f64>() * inside as f64 / f64::from(count);
-        let bytes = BYTES_PER_TRIANGLE * mesh.triangles().len() as f64;
-        Self { solid: Solid { interior, tolerance }, volume, area: mesh.area(), bytes }
-    }
-
-    /// The approximate number of samples; at least one.
-    pub fn expected_samples(&self, radius: f64) -> f64 {
-        let [area, depth] = [self.area / radius / radius, BEYOND];
-        (MAXIMAL_DENSITY_IN_SPACE * (self.volume / radius / radius / radius + depth * area)).max(1.0)
-    }
 }

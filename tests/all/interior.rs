@@ -50,7 +50,7 @@ fn closed_shapes_are_closed_and_others_are_not() {
         (meshes::plane(), false),
         (meshes::sheets(0.1), false),
         (meshes::book(3), false),
-        (meshes::duplicated(meshes::plane()), true),
+        (meshes::join([meshes::plane(), meshes::plane()]), true),
         (meshes::random_soup(1, 50), false),
     ] {
         assert_eq!(mesh(soup).is_closed(), is_closed);

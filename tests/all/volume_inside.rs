@@ -192,7 +192,8 @@ fn soups_without_an_inside_do_no_harm() {
         let mesh = mesh(soup);
         let (points, report) = made(&mesh, &InsideOptions::new(0.1));
         check_inside(&mesh, &points, &report);
-        let doubled = self::mesh(meshes::duplicated((mesh.positions().to_vec(), mesh.triangles().to_vec())));
+        let soup = || (mesh.positions().to_vec(), mesh.triangles().to_vec());
+        let doubled = self::mesh(meshes::join([soup(), soup()]));
         assert!(doubled.is_closed());
         assert!(made(&doubled, &InsideOptions::new(0.1)).0.is_empty());
         let error = sample_inside(&Context::new(1).unwrap(), &doubled, &InsideOptions::by_count(5), None).unwrap_err();
