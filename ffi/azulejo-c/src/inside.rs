@@ -151,9 +151,9 @@ impl azulejo_volume_inside_options {
 
 /// Makes a maximal, conflict-free set of samples inside a mesh, x y z each: no place inside is
 /// farther from every sample than the radius and 7 float spacings, unless it is nearer to the
-/// surface than the report's `depth`. No sample is outside (azulejo_mesh_contains), but those of the
-/// surface, which azulejo_psp_sample makes with the same radius and seed; the result has positions
-/// only. Count, order and given samples are as in azulejo_volume_sample.
+/// surface than the report's `depth`. No sample is outside (azulejo_mesh_contains), except those of
+/// the surface, which azulejo_psp_sample makes with the same radius and seed. The result has
+/// positions only. Count, order and given samples are as in azulejo_volume_sample.
 ///
 /// O(samples) time and memory. What is made of the mesh, O(triangles * log triangles) the first
 /// time, is kept with it.
@@ -204,11 +204,11 @@ pub unsafe extern "C" fn azulejo_mesh_is_closed(mesh: *const azulejo_mesh) -> u3
     unsafe { handles::peek("mesh", mesh) }.is_some_and(|mesh| mesh.shared.is_closed()).into()
 }
 
-/// Writes for each of `count` points, x y z each, 1 to `inside` if it is inside the mesh, else 0. In
-/// a closed mesh these are the points whose ray along +x crosses an odd number of triangles, without
-/// rounding: meshes that share a face share no point. In any other one the generalised winding
-/// number is at least 1/2, or at most -1/2, up to .02. O(triangles * log triangles) the first time,
-/// then about O(log triangles) for a point.
+/// Writes to `inside` for each of `count` points, x y z each, 1 if it is inside the mesh, else 0.
+/// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles,
+/// without rounding: meshes that share a face share no point. In any other mesh the generalised
+/// winding number is at least 1/2, or at most -1/2, up to .02. O(triangles * log triangles) the
+/// first time, then about O(log triangles) for a point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_contains(
     context: *const azulejo_context,
