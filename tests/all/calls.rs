@@ -76,6 +76,7 @@ static PIECE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
     maximal::sample(&Context::new(1).unwrap(), &options, None).unwrap().positions
 });
 static MESH: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::fine_torus(60, 30)));
+static SOLID: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::welded(meshes::fine_torus(60, 30))));
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
 static CLASSES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.06, 0.03], 1.0).unwrap());
 static MULTIPLES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[1.0, 0.5], 1.0).unwrap());
@@ -550,9 +551,9 @@ const VOLUME: &[Call] = &[
             ))
         },
         refused: &[
-            ("radius: ", |c, p| said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(-0.1), p))),
+            ("radius: ", |c, p| said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(-0.1), p))),
             ("tolerance: ", |c, p| {
-                said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
+                said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
             }),
         ],
     },

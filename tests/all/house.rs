@@ -29,6 +29,8 @@ const IMPORTING: &[(&str, usize)] = &[
     ("psp/fill/uniform.rs", 18),
     ("psp/given.rs", 14),
     ("psp/progressive.rs", 17),
+    ("volume/set.rs", 14),
+    ("volume/solid.rs", 13),
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.
