@@ -1,8 +1,10 @@
 //! Sets of cuboids: microseconds per sample at 10^5 and 10^6 samples, periodic and bounded, on one thread and on two.
 
 use std::hint::black_box;
+use std::sync::Arc;
 
-use azulejo::volume::{Options, sample};
+use azulejo::mesh::Mesh;
+use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY_IN_SPACE};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -25,5 +27,28 @@ fn cuboids(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, cuboids);
+/// The bunny, its holes as they are, with 10^6 samples, and the dragon with 10^5: set AZULEJO_BENCH_BUNNY and
+/// AZULEJO_BENCH_DRAGON to their files.
+fn insides(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("volume inside");
+    group.sample_size(10);
+    let context = Context::new(1).unwrap();
+    for (variable, count) in [("AZULEJO_BENCH_BUNNY", 1e6), ("AZULEJO_BENCH_DRAGON", 1e5)] {
+        let Ok(path) = std::env::var(variable) else { continue };
+        let mesh = Arc::new(Mesh::load(path).unwrap());
+        let radius = sample_inside(&context, &mesh, &InsideOptions::by_count(10_000), None).unwrap().1.radius;
+        let radius = radius * f64::cbrt(1e4 / count);
+        for surface in [Surface::Open, Surface::First] {
+            let options = InsideOptions::new(radius).surface(surface);
+            let samples = sample_inside(&context, &mesh, &options, None).unwrap().0.len();
+            group.throughput(Throughput::Elements(samples as u64));
+            group.bench_function(format!("{variable} {surface:?}"), |bencher| {
+                bencher.iter(|| sample_inside(&context, &mesh, black_box(&options), None).unwrap());
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, cuboids, insides);
 criterion_main!(benches);

@@ -856,6 +856,9 @@ using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surfa
 /// See azulejo_volume_options; `radius` or `count` is to be set.
 using VolumeOptions =
     GivenOptions<Options<azulejo_volume_options, azulejo_volume_options_init>, 3>;
+/// See azulejo_volume_inside_options; `radius` or `count` is to be set.
+using VolumeInsideOptions =
+    GivenOptions<Options<azulejo_volume_inside_options, azulejo_volume_inside_options_init>, 3>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
 using ThinOptions = Options<azulejo_thin_options, azulejo_thin_options_init>;
 
@@ -988,6 +991,8 @@ struct Report : C {
 using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
 using ClassesReport = Report<azulejo_classes_report, azulejo_classes_report_init>;
 using VolumeReport = Report<azulejo_volume_report, azulejo_volume_report_init>;
+using VolumeInsideReport =
+    Report<azulejo_volume_inside_report, azulejo_volume_inside_report_init>;
 using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
 using PspReport = Report<azulejo_psp_report, azulejo_psp_report_init>;
@@ -1306,6 +1311,8 @@ public:
 
     /// The area of all triangles that no mask leaves out; see azulejo_mesh_area.
     double area() const noexcept { return azulejo_mesh_area(get()); }
+    /// See azulejo_mesh_is_closed.
+    bool is_closed() const noexcept { return azulejo_mesh_is_closed(get()) != 0; }
 };
 
 // ---- Regions -----------------------------------------------------------------------------------
@@ -1743,6 +1750,15 @@ inline Status try_volume_sample(const Context &context, const VolumeOptions &opt
                                 VolumeReport *report = nullptr) {
     return detail::make(out, [&](auto **points) {
         return azulejo_volume_sample(context.get(), &options, points, report);
+    });
+}
+
+/// A maximal set of samples inside a mesh; see azulejo_volume_sample_inside.
+inline Status try_volume_sample_inside(const Context &context, const Mesh &mesh,
+                                       const VolumeInsideOptions &options, Points &out,
+                                       VolumeInsideReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_volume_sample_inside(context.get(), mesh.get(), &options, points, report);
     });
 }
 
@@ -2321,6 +2337,14 @@ inline Points volume_sample(const Context &context, const VolumeOptions &options
                             VolumeReport *report = nullptr) {
     Points points;
     check(try_volume_sample(context, options, points, report));
+    return points;
+}
+
+inline Points volume_sample_inside(const Context &context, const Mesh &mesh,
+                                   const VolumeInsideOptions &options,
+                                   VolumeInsideReport *report = nullptr) {
+    Points points;
+    check(try_volume_sample_inside(context, mesh, options, points, report));
     return points;
 }
 

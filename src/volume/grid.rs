@@ -94,7 +94,7 @@ impl Grid {
         self.sides = std::array::from_fn(|axis| f64::from(self.size[axis]) / self.counts[axis] as f64);
         self.per_unit = self.sides.map(|side| 1.0 / side);
         (self.radius, self.per_radius, self.separation) = (radius, 1.0 / radius, separation);
-        let margin = MARGIN + MARGIN_IN_RADII * radius;
+        let margin = Self::margin(radius);
         self.reach = radius + margin;
         self.limit = ((self.reach / radius) * (self.reach / radius)) as f32;
         // A lattice point is at most sqrt(3) margins away.
@@ -114,6 +114,21 @@ impl Grid {
         self.next.clear();
         self.next.resize(cells, 0);
         self.given = if given.is_empty() { Obstacles::default() } else { self.obstacles(given, margin) };
+    }
+
+    /// How far from its voxel a dart can be that is rounded, in units.
+    pub fn margin(radius: f64) -> f64 {
+        MARGIN + MARGIN_IN_RADII * radius
+    }
+
+    /// The cells along each axis.
+    pub fn counts(&self) -> [usize; 3] {
+        self.counts
+    }
+
+    /// The numbers of a cell along the axes.
+    pub fn place(&self, cell: usize) -> [u16; 3] {
+        self.places[cell]
     }
 
     /// Given balls in the cells.

@@ -9,6 +9,7 @@ use azulejo_core::kdrt;
 
 use crate::adaptive::azulejo_psp_adaptive_options_init;
 use crate::dcr::azulejo_dcr_options_init;
+use crate::inside::azulejo_volume_inside_options_init;
 use crate::kdrt::azulejo_kdrt_options_init;
 use crate::maximal::azulejo_maximal_options_init;
 use crate::merge::azulejo_kdrt_merge_options_init;
@@ -162,7 +163,8 @@ fn written(name: &str) -> Vec<u8> {
         "azulejo_dcr_options": azulejo_dcr_options_init,
         "azulejo_dcr_surface_options": azulejo_dcr_surface_options_init,
         "azulejo_thin_options": azulejo_thin_options_init,
-        "azulejo_volume_options": azulejo_volume_options_init
+        "azulejo_volume_options": azulejo_volume_options_init,
+        "azulejo_volume_inside_options": azulejo_volume_inside_options_init
     }
 }
 

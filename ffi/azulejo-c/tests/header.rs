@@ -11,7 +11,7 @@ const COLUMNS: usize = 100;
 
 /// As many lines of comments as all headers may have, so that they can be read: what holds for many calls stands once, in
 /// azulejo.h, and derivations in docs/.
-const COMMENTS: usize = 1_280;
+const COMMENTS: usize = 1_330;
 
 /// A header below include/azulejo/.
 struct Header {
@@ -42,7 +42,11 @@ const HEADERS: [Header; 7] = [
         page: "PSP: maximal Poisson-disk sets on triangle meshes, also with a radius that varies.",
         sources: &["psp_report", "psp", "psp_classes", "psp_edit", "adaptive", "mesh_density"],
     },
-    Header { name: "volume", page: "Volumes: maximal Poisson-disk sets of cuboids.", sources: &["volume"] },
+    Header {
+        name: "volume",
+        page: "Volumes: maximal Poisson-disk sets of cuboids and inside meshes.",
+        sources: &["volume", "inside"],
+    },
     Header {
         name: "dcr",
         page: "DCR: relaxation of point sets in the plane, with a density, and on meshes.",

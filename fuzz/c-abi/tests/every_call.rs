@@ -11,6 +11,7 @@ use azulejo_c::classes::*;
 use azulejo_c::context::*;
 use azulejo_c::dcr::*;
 use azulejo_c::domain::*;
+use azulejo_c::inside::*;
 use azulejo_c::kdrt::*;
 use azulejo_c::kdrt_classes::*;
 use azulejo_c::kept::*;
@@ -323,6 +324,19 @@ fn surfaces() {
         assert_eq!((positions.read(), positions.add(1).read()), ([1.0, 1.5, 1.0], [2.0, 2.0, 1.0]));
         assert_eq!(read_and_free(points), 2);
         drop(deformed);
+    }
+    // SAFETY: the arrays have the given lengths.
+    unsafe {
+        let (points, mut inside) = ([0.25f32, 0.25, 0.0, 9.0, 9.0, 9.0], [7u8; 2]);
+        assert_eq!(mesh.read(azulejo_mesh_is_closed), 0);
+        let status = azulejo_mesh_contains(context.get(), mesh.get(), points.as_ptr(), 2, inside.as_mut_ptr());
+        assert_eq!((status, inside[1]), (AZULEJO_OK, 0));
+        let mut options = defaults(azulejo_volume_inside_options_init);
+        let mut report = defaults(azulejo_volume_inside_report_init);
+        (options.radius, options.surface) = (0.9, AZULEJO_SURFACE_FIRST);
+        let (handle, mesh) = (context.get(), mesh.get());
+        read_and_free(made(|out| azulejo_volume_sample_inside(handle, mesh, &options, out, &raw mut report)));
+        assert!(report.depth > 0.0 && report.samples >= report.surface_samples);
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);

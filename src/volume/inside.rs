@@ -1,0 +1,530 @@
+//! What of a block lies inside a mesh.
+//!
+//! A voxel is *cut* if a triangle meets it, tested by separating axes (Schwarz and Seidel 2010, "Fast parallel surface and solid
+//! voxelization on GPUs", section 3, by intervals instead of edge functions). Voxels that are not cut and share faces lie on one
+//! side of the surface: cells are flooded, then the parts of each cut cell, beginning at neighbours whose side is known, and one
+//! question to the mesh (`interior/`) decides for all that a flood reaches. The side of an open mesh can change without a triangle, near
+//! its holes: what is not certain there is cut too.
+//!
+//! Cut voxels are divided until they are small: those of which no side is longer than the tolerance are dropped. So a place inside
+//! that is not covered lies in a voxel with such sides that meets the surface. Darts on cut voxels ask the mesh.
+//!
+//! # Exactness
+//! All tests are right to 10^-5 radii, and voxels are wider by that and by what a dart may be rounded, so that a voxel is never taken
+//! for one that is not cut.
+
+use crate::index::Binned;
+use crate::interior::Interior;
+use crate::math::{rounded_down, rounded_up};
+use crate::plane::{Lattice, Rect};
+use crate::simd::Lanes;
+use crate::volume::fill::Pass;
+use crate::volume::grid::Grid;
+use crate::volume::search::Centre;
+use crate::volume::shape::{Shape, Voxels};
+use crate::volume::voxels::{Level, Voxel, VoxelBox};
+
+/// The error of coordinates in a block, in radii.
+const ERROR: f64 = 1e-5;
+
+/// Triangles with less area than this share of the product of two edges have a plane that is no use; their edges say all.
+const FLAT: f64 = 1e-7;
+
+/// The faces of a voxel in bits of its parts: those at its lower and upper end along each axis.
+const FACES: [[u64; 2]; 3] = [
+    [0x1111_1111_1111_1111, 0x8888_8888_8888_8888],
+    [0x000f_000f_000f_000f, 0xf000_f000_f000_f000],
+    [0x0000_0000_0000_ffff, 0xffff_0000_0000_0000],
+];
+
+/// The distance of neighbouring parts along each axis, in bits.
+const STEPS: [u32; 3] = [1, 4, 16];
+
+/// A direction along which a triangle and a box may be apart, and the interval of the triangle, in radii from the block's centre.
+#[derive(Clone, Copy, Default)]
+struct Axis {
+    along: [f32; 3],
+    low: f32,
+    high: f32,
+}
+
+/// A triangle by its intervals.
+struct Sides {
+    low: [f32; 3],
+    high: [f32; 3],
+    /// The normal, and the normals of the edges in planes of two axes of space.
+    axes: [Axis; 10],
+}
+
+/// The inside of a mesh.
+#[derive(Clone, Copy)]
+pub struct Solid<'a> {
+    pub interior: &'a Interior,
+    /// The largest side of cut voxels that are dropped, in radii.
+    pub tolerance: f64,
+}
+
+/// The smallest tolerance that [`Solid::refine`] makes.
+const FINEST: f64 = 1.0 / 1024.0;
+
+impl<'a> Solid<'a> {
+    /// Makes the tolerance smaller, if it is not very small.
+    pub fn refine(&mut self) -> bool {
+        self.tolerance /= 4.0;
+        self.tolerance > FINEST
+    }
+
+    /// Its part in a region of lattice points.
+    pub fn within(&self, lattice: &'a Lattice<3>, region: Rect<3>) -> Inside<'a> {
+        let (triangles, met, known) = Default::default();
+        let margin = (Grid::margin(lattice.radius) / lattice.radius + ERROR) as f32;
+        let tolerance = self.tolerance as f32;
+        let half = std::array::from_fn(|axis| 0.5 * f64::from(region.length(axis)) / lattice.radius);
+        let (interior, side, caps, caps_of_cells) = (self.interior, half, None, Vec::new());
+        Inside { interior, lattice, tolerance, region, half, side, margin, triangles, met, known, caps, caps_of_cells }
+    }
+}
+
+/// The part of a block that lies inside a mesh.
+pub struct Inside<'a> {
+    interior: &'a Interior,
+    lattice: &'a Lattice<3>,
+    /// The largest side of cut voxels that are dropped, in radii.
+    tolerance: f32,
+    region: Rect<3>,
+    /// Half the sides of the region and the sides of a cell, in radii.
+    half: [f64; 3],
+    side: [f64; 3],
+    /// In radii, by which voxels are wider on all sides.
+    margin: f32,
+    triangles: Vec<Sides>,
+    /// The triangles that meet each cell.
+    met: Binned<u32>,
+    /// The parts of each cell that are known to lie inside, and outside.
+    known: Vec<[u64; 2]>,
+    /// The winding number of the caps in the region, if that decides for all of it ([`Interior::caps_around`]); or in the cells
+    /// that were asked for.
+    caps: Option<f64>,
+    caps_of_cells: Vec<Option<Option<f64>>>,
+}
+
+impl Inside<'_> {
+    /// The triangles that may meet the region, by their intervals.
+    fn gather(&mut self) {
+        let Self { lattice, region, margin, .. } = *self;
+        let unit = lattice.unit();
+        let beyond = f64::from(margin) * lattice.radius * unit;
+        let ends = |axis: usize| [region.min[axis], region.max[axis] - 1].map(|x| lattice.coordinate(axis, x));
+        let low = std::array::from_fn(|axis| rounded_down(ends(axis)[0] - beyond));
+        let high = std::array::from_fn(|axis| rounded_up(ends(axis)[1] + beyond));
+        let centre: [f64; 3] = std::array::from_fn(|axis| ends(axis)[0] + 0.5 * f64::from(region.length(axis)) * unit);
+        let per_radius = 1.0 / (lattice.radius * unit);
+        let triangles = &mut self.triangles;
+        self.interior.for_each_near([low, high], |corners| {
+            let local = corners.map(|corner| std::array::from_fn(|k| (f64::from(corner[k]) - centre[k]) * per_radius));
+            triangles.push(Sides::new(&local));
+        });
+    }
+
+    /// The vector from the region's centre to a cell's, in radii.
+    #[inline(always)]
+    fn cell_centre(&self, grid: &Grid, cell: usize) -> [f32; 3] {
+        let (place, mut centre, mut axis) = (grid.place(cell), [0.0; 3], 0);
+        while axis < 3 {
+            centre[axis] = ((f64::from(place[axis]) + 0.5) * self.side[axis] - self.half[axis]) as f32;
+            axis += 1;
+        }
+        centre
+    }
+
+    /// The position of a lattice point near a place that is given in radii from the region's centre.
+    fn position(&self, place: [f32; 3]) -> [f32; 3] {
+        let Self { half, lattice, region, .. } = self;
+        lattice.position(std::array::from_fn(|axis| {
+            let along = (f64::from(place[axis]) + half[axis]) * lattice.radius;
+            region.min[axis] + (along as i32).clamp(0, region.length(axis) - 1)
+        }))
+    }
+
+    /// The winding number of the caps within a distance, in radii, of a place, if that decides for all of it.
+    fn caps_around(&self, place: [f32; 3], reach: f32) -> Option<f64> {
+        let reach = f64::from(reach + 2.0 * self.margin) * self.lattice.radius * self.lattice.unit();
+        self.interior.caps_around(self.position(place), reach)
+    }
+
+    /// The same for a cell.
+    fn caps_of_cell(&mut self, grid: &Grid, cell: usize) -> Option<f64> {
+        if self.caps.is_some() {
+            return self.caps;
+        }
+        if let Some(known) = self.caps_of_cells[cell] {
+            return known;
+        }
+        let caps = self.caps_around(self.cell_centre(grid, cell), half_diagonal(self.side));
+        self.caps_of_cells[cell] = Some(caps);
+        caps
+    }
+
+    /// The side of all that a path leads to which stays within a distance, in radii, of a place and meets no triangle, if
+    /// that is certain. `caps` is known of places for which it decides.
+    fn side(&self, place: [f32; 3], reach: f32, caps: Option<f64>) -> Option<bool> {
+        let caps = caps.or_else(|| self.caps_around(place, reach))?;
+        Some(self.interior.side_among(self.position(place), caps))
+    }
+
+    /// The parts of a voxel, `centre` from the region's, that triangles meet, of those in `wanted`.
+    #[inline(always)]
+    fn met_parts<L: Lanes>(&self, lanes: L, level: &Level, cell: usize, centre: [f32; 3], wanted: u64) -> u64 {
+        let ([x, y, z], margin) = (level.part_halves, self.margin);
+        let halves = [x + margin, y + margin, z + margin];
+        let columns = [
+            lanes.add(lanes.splat(centre[0]), lanes.load(&level.columns[0])),
+            lanes.add(lanes.splat(centre[1]), lanes.load(&level.columns[1])),
+        ];
+        let (mut cut, met, mut index) = (0u64, self.met.bin(cell), 0);
+        while index < met.len() {
+            let number = met[index];
+            index += 1;
+            let triangle = &self.triangles[number as usize];
+            let mut parts = wanted & !cut & triangle.box_parts(level, centre, halves);
+            let mut number = 0;
+            while number < triangle.axes.len() && parts != 0 {
+                let axis = &triangle.axes[number];
+                number += 1;
+                let [x, y, z] = axis.along;
+                let radius = x.abs() * halves[0] + y.abs() * halves[1] + z.abs() * halves[2];
+                let sums = lanes.add(lanes.mul(columns[0], lanes.splat(x)), lanes.mul(columns[1], lanes.splat(y)));
+                let mut layer = 0;
+                while layer < level.layers.len() {
+                    let along = z * (centre[2] + level.layers[layer]);
+                    let (from, to) = (axis.low - radius - along, axis.high + radius - along);
+                    let apart =
+                        lanes.bits(lanes.less(sums, lanes.splat(from))) | lanes.bits(lanes.less(lanes.splat(to), sums));
+                    parts &= !(u64::from(apart) << (16 * layer));
+                    layer += 1;
+                }
+            }
+            cut |= parts;
+        }
+        cut
+    }
+
+    /// The parts on known sides that neighbours of a part of a cell, or of a cell as a whole, have at its faces.
+    fn known_around(&self, grid: &Grid, cell: usize, part: Option<u32>) -> [u64; 2] {
+        let (place, counts) = (grid.place(cell), grid.counts());
+        let strides = [1, counts[0], counts[0] * counts[1]];
+        let mut seeds = [0; 2];
+        for axis in 0..3 {
+            for end in 0..2 {
+                let at_face = part.is_none_or(|part| FACES[axis][end] >> part & 1 == 1);
+                let neighbour = if !at_face {
+                    cell
+                } else if end == 0 {
+                    if place[axis] == 0 {
+                        continue;
+                    }
+                    cell - strides[axis]
+                } else {
+                    if usize::from(place[axis]) + 1 == counts[axis] {
+                        continue;
+                    }
+                    cell + strides[axis]
+                };
+                let known = self.known[neighbour];
+                for side in 0..2 {
+                    seeds[side] |= match part {
+                        // A face of parts of the neighbouring cell, moved to this one's.
+                        None if end == 0 => (known[side] & FACES[axis][1]) >> (3 * STEPS[axis]),
+                        None => (known[side] & FACES[axis][0]) << (3 * STEPS[axis]),
+                        Some(part) => {
+                            let step = if at_face { 3 * STEPS[axis] } else { STEPS[axis] };
+                            let next = if (end == 0) == at_face { part + step } else { part - step };
+                            if known[side] >> next & 1 == 1 { FACES[axis][end] } else { 0 }
+                        }
+                    };
+                }
+            }
+        }
+        seeds
+    }
+
+    /// The sides of the parts of a voxel that are not cut: those inside, outside, and of no certain side. Only components
+    /// with parts in `wanted` are asked for. Neighbours in `seeds` decide where the caps do.
+    fn sides(
+        &self,
+        level: &Level,
+        centre: [f32; 3],
+        [free, wanted]: [u64; 2],
+        seeds: [u64; 2],
+        caps: Option<f64>,
+    ) -> [u64; 3] {
+        let (mut sides, mut left) = ([0; 3], free);
+        while left != 0 {
+            let component = flood(left & left.wrapping_neg(), free);
+            left &= !component;
+            if caps.is_some() && component & seeds[0] != 0 {
+                sides[0] |= component;
+            } else if caps.is_some() && component & seeds[1] != 0 {
+                sides[1] |= component;
+            } else if component & wanted != 0 {
+                let first = level.part_centre(centre, component.trailing_zeros());
+                let [x, y, z] = level.halves;
+                match self.side(first, 2.0 * (x + y + z), caps) {
+                    Some(is_inside) => sides[usize::from(!is_inside)] |= component,
+                    None => self.each_side(level, centre, component & wanted, &mut sides),
+                }
+            }
+        }
+        sides
+    }
+
+    /// The sides of parts, each by itself.
+    #[cold]
+    fn each_side(&self, level: &Level, centre: [f32; 3], mut parts: u64, sides: &mut [u64; 3]) {
+        let reach = level.part_halves.iter().sum::<f32>();
+        while parts != 0 {
+            let bit = parts.trailing_zeros();
+            parts &= parts - 1;
+            let side = self.side(level.part_centre(centre, bit), reach, None);
+            sides[side.map_or(2, |is_inside| usize::from(!is_inside))] |= 1 << bit;
+        }
+    }
+}
+
+impl Shape for Inside<'_> {
+    #[inline(always)]
+    fn cells<L: Lanes>(&mut self, _: L, grid: &Grid, open: Vec<Voxel>) -> Voxels {
+        let (cells, counts) = (grid.cells(), grid.counts());
+        self.side = std::array::from_fn(|axis| 2.0 * self.half[axis] / counts[axis] as f64);
+        self.gather();
+        self.known = vec![[0; 2]; cells];
+        self.caps = self.caps_around([0.0; 3], half_diagonal(self.half.map(|half| 2.0 * half)));
+        if self.caps.is_none() {
+            self.caps_of_cells = vec![None; cells];
+        }
+        self.bin(grid);
+        let mut voxels = Voxels::default();
+        self.flood_cells(grid);
+        for voxel in open {
+            let cell = voxel.cell as usize;
+            if self.known[cell][0] == u64::MAX {
+                voxels.inside.push(voxel);
+            } else if self.known[cell][1] != u64::MAX {
+                voxels.cut.push(voxel);
+            }
+        }
+        voxels
+    }
+
+    #[inline(always)]
+    fn parts<L: Lanes>(
+        &mut self,
+        lanes: L,
+        grid: &Grid,
+        level: &Level,
+        voxel: Voxel,
+        open: u64,
+        pass: Pass,
+    ) -> [u64; 2] {
+        let cell = voxel.cell as usize;
+        let (from_cell, in_cell) = (self.cell_centre(grid, cell), VoxelBox::new(level, voxel).centre);
+        let centre = [from_cell[0] + in_cell[0], from_cell[1] + in_cell[1], from_cell[2] + in_cell[2]];
+        let cut = self.met_parts(lanes, level, cell, centre, level.all);
+        let free = level.all & !cut;
+        let of_cell = level.counts == [1; 3];
+        let is_divided = level.all == u64::MAX;
+        let seeds = match level.counts {
+            _ if !is_divided => [0; 2],
+            [1, 1, 1] => self.known_around(grid, cell, None),
+            [4, 4, 4] => {
+                let [x, y, z] = voxel.numbers;
+                self.known_around(grid, cell, Some(u32::from(x + 4 * y + 16 * z)))
+            }
+            _ => [0; 2],
+        };
+        let mut caps = self.caps_of_cell(grid, cell);
+        if caps.is_none() && !of_cell && pass == Pass::Last {
+            let [x, y, z] = level.halves;
+            caps = self.caps_around(centre, x + y + z);
+        }
+        let asks = pass == Pass::Last || caps.is_some();
+        let [inside, outside, unsure] = self.sides(level, centre, [free, if asks { open } else { 0 }], seeds, caps);
+        if of_cell && is_divided {
+            self.known[cell] = [inside, outside];
+        }
+        let [x, y, z] = level.part_halves;
+        let small = 2.0 * x.max(y).max(z) <= self.tolerance;
+        let unsure = if asks { unsure } else { free & !inside & !outside };
+        [inside & open, if small { 0 } else { (cut | unsure) & open }]
+    }
+
+    fn holds(&self, point: Centre) -> bool {
+        let position = self.lattice.position(point);
+        self.caps.map_or_else(|| self.interior.contains(position), |caps| self.interior.side_among(position, caps))
+    }
+}
+
+impl Inside<'_> {
+    /// Puts each triangle into the cells that it meets.
+    fn bin(&mut self, grid: &Grid) {
+        let (counts, Self { half, side, .. }) = (grid.counts(), &*self);
+        let margin = f64::from(self.margin);
+        let halves: [f32; 3] = side.map(|side| (0.5 * side) as f32 + self.margin);
+        let mut met = Vec::new();
+        for (number, triangle) in (0..).zip(&self.triangles) {
+            let range = |axis: usize| {
+                let to = |x: f64| (x + half[axis]) / side[axis];
+                let (low, high) =
+                    (to(f64::from(triangle.low[axis]) - margin), to(f64::from(triangle.high[axis]) + margin));
+                let last = counts[axis] as f64 - 1.0;
+                if high < 0.0 || low > last + 1.0 {
+                    0..0
+                } else {
+                    low.max(0.0).min(last) as usize..high.min(last) as usize + 1
+                }
+            };
+            let [columns, rows, layers] = [range(0), range(1), range(2)];
+            let is_alone = columns.len() * rows.len() * layers.len() == 1;
+            for (z, y) in layers.flat_map(|z| rows.clone().map(move |y| (z, y))) {
+                for x in columns.clone() {
+                    let cell = (z * counts[1] + y) * counts[0] + x;
+                    if is_alone || triangle.meets(self.cell_centre(grid, cell), halves) {
+                        met.push((cell, number));
+                    }
+                }
+            }
+        }
+        self.met = Binned::new(grid.cells(), met.iter().copied());
+    }
+
+    /// Finds the sides of the cells that are not cut.
+    fn flood_cells(&mut self, grid: &Grid) {
+        let (counts, cells) = (grid.counts(), grid.cells());
+        let strides = [1, counts[0], counts[0] * counts[1]];
+        let mut seen: Vec<bool> = (0..cells).map(|cell| !self.met.bin(cell).is_empty()).collect();
+        for first in 0..cells {
+            if seen[first] {
+                continue;
+            }
+            seen[first] = true;
+            let (mut component, mut next) = (vec![first], 0);
+            while next < component.len() {
+                let cell = component[next];
+                next += 1;
+                let place = grid.place(cell);
+                for axis in 0..3 {
+                    let below = (place[axis] > 0).then(|| cell - strides[axis]);
+                    let above = (usize::from(place[axis]) + 1 < counts[axis]).then(|| cell + strides[axis]);
+                    for neighbour in [below, above].into_iter().flatten() {
+                        if !seen[neighbour] {
+                            seen[neighbour] = true;
+                            component.push(neighbour);
+                        }
+                    }
+                }
+            }
+            let decided =
+                self.caps.map(|caps| self.interior.side_among(self.position(self.cell_centre(grid, first)), caps));
+            for cell in component {
+                let side = decided.or_else(|| {
+                    let caps = self.caps_of_cell(grid, cell)?;
+                    Some(self.interior.side_among(self.position(self.cell_centre(grid, cell)), caps))
+                });
+                if let Some(is_inside) = side {
+                    self.known[cell][usize::from(!is_inside)] = u64::MAX;
+                }
+            }
+        }
+    }
+}
+
+/// Half the diagonal of a box, from its sides.
+fn half_diagonal(sides: [f64; 3]) -> f32 {
+    (0.5 * sides.iter().map(|side| side * side).sum::<f64>().sqrt()) as f32
+}
+
+impl Sides {
+    /// A triangle by its corners, in radii from the region's centre.
+    fn new(corners: &[[f64; 3]; 3]) -> Self {
+        let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| a[k] - b[k]) };
+        let [a, b, c] = *corners;
+        let edges = [minus(b, a), minus(c, b), minus(a, c)];
+        let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let [u, v] = [edges[0], edges[2]];
+        let normal = [u[2] * v[1] - u[1] * v[2], u[0] * v[2] - u[2] * v[0], u[1] * v[0] - u[0] * v[1]];
+        let mut axes = [Axis::default(); 10];
+        let axis = |along: [f64; 3], size: f64| {
+            if size == 0.0 {
+                return Axis::default();
+            }
+            let along = along.map(|x| x / size);
+            let places = corners.map(|p| p[0] * along[0] + p[1] * along[1] + p[2] * along[2]);
+            let [low, high] = [f64::min, f64::max].map(|pick| pick(places[0], pick(places[1], places[2])) as f32);
+            Axis { along: along.map(|x| x as f32), low, high }
+        };
+        let area = length(normal);
+        if area > FLAT * length(u) * length(v) {
+            axes[0] = axis(normal, area);
+        }
+        for (edge, axes) in edges.iter().zip(axes[1..].chunks_mut(3)) {
+            for (k, slot) in axes.iter_mut().enumerate() {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let mut along = [0.0; 3];
+                (along[i], along[j]) = (-edge[j], edge[i]);
+                *slot = axis(along, length(along));
+            }
+        }
+        let of = |pick: fn(f64, f64) -> f64| std::array::from_fn(|k| pick(a[k], pick(b[k], c[k])) as f32);
+        Self { low: of(f64::min), high: of(f64::max), axes }
+    }
+
+    /// True if a box may meet the triangle.
+    fn meets(&self, centre: [f32; 3], halves: [f32; 3]) -> bool {
+        let meets = |axis: &Axis| {
+            let along = (0..3).map(|k| axis.along[k] * centre[k]).sum::<f32>();
+            let radius = (0..3).map(|k| axis.along[k].abs() * halves[k]).sum::<f32>();
+            axis.low <= along + radius && along - radius <= axis.high
+        };
+        (0..3).all(|k| self.low[k] <= centre[k] + halves[k] && centre[k] - halves[k] <= self.high[k])
+            && self.axes.iter().all(meets)
+    }
+
+    /// The parts of a voxel that the box around the triangle meets.
+    #[inline(always)]
+    fn box_parts(&self, level: &Level, centre: [f32; 3], halves: [f32; 3]) -> u64 {
+        let (mut parts, mut axis) = (u64::MAX, 0);
+        while axis < 3 {
+            let (low, high) =
+                (self.low[axis] - halves[axis] - centre[axis], self.high[axis] + halves[axis] - centre[axis]);
+            let (mut met, mut number) = (0, 0);
+            while number < 4 {
+                let place = level.offset(axis, number);
+                // All parts with this number along the axis.
+                let slice = FACES[axis][0] << (number as u32 * STEPS[axis]);
+                met |= if low <= place && place <= high { slice } else { 0 };
+                number += 1;
+            }
+            parts &= met;
+            axis += 1;
+        }
+        parts
+    }
+}
+
+/// The parts that are connected with those of `from` by faces, through those of `free`.
+#[inline(always)]
+fn flood(from: u64, free: u64) -> u64 {
+    let mut reached = from;
+    loop {
+        let (mut next, mut axis) = (reached, 0);
+        while axis < 3 {
+            next |= (reached & !FACES[axis][1]) << STEPS[axis] | (reached & !FACES[axis][0]) >> STEPS[axis];
+            axis += 1;
+        }
+        next &= free;
+        if next == reached {
+            return reached;
+        }
+        reached = next;
+    }
+}
