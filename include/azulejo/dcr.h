@@ -133,10 +133,10 @@ azulejo_status azulejo_dcr_report_init(azulejo_dcr_report *report, size_t struct
 ///   the set before the first step and the states after whole steps the one in which the fewest
 ///   points have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius
 ///   above 0.67 d_max; otherwise the state after the last whole step.
-/// - O(count) time for each step, O(count * log count) where the triangulation is built again: in
-///   each step of AZULEJO_METHOD_THESIS, with AZULEJO_METHOD_MOMENTUM while more than 64 points
-///   have holes as wide as the domain. A bounded domain takes up to four times the time and memory
-///   of a periodic one. O(count) memory.
+/// - O(count) time for each step, O(count * log count) where the triangulation is built again:
+///   while more than 64 points have holes as wide as the domain, with AZULEJO_METHOD_THESIS also
+///   after steps that turn a triangle over, as the first from random points do. A bounded domain
+///   takes up to four times the time and memory of a periodic one. O(count) memory.
 azulejo_status azulejo_dcr_relax(const azulejo_context *context,
                                  const azulejo_dcr_options *options,
                                  const float *positions,

@@ -13,7 +13,7 @@ use crate::setters::setters;
 const BYTES_PER_POINT: f64 = 315.0;
 const BYTES_PER_MIRRORED_POINT: f64 = 950.0;
 /// The same of the thesis's method in a mesh, and in lists.
-const BYTES_PER_THESIS_POINT: f64 = 490.0;
+const BYTES_PER_THESIS_POINT: f64 = 400.0;
 const BYTES_PER_MIRRORED_THESIS_POINT: f64 = 1010.0;
 const BYTES_PER_LISTED_THESIS_POINT: f64 = 380.0;
 

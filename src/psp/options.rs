@@ -94,7 +94,7 @@ pub struct Options<'a> {
     /// they act on all sides.
     pub cosine: f64,
     /// True, the default, if an iteration of [local projectors](Projectors::Local) precedes the fill of a set of more
-    /// than about 25,000 samples, in any order, where that takes less time: by a rule of mesh and radius alone
+    /// than about 25,000 samples, in any order, where that takes less time: by a rule of mesh, radius and given samples
     /// (docs/design/surface.md). False: all samples are darts. Sets of a count and in progressive order always are.
     pub projected: bool,
 }

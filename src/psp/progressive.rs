@@ -86,6 +86,7 @@ impl Psp {
     pub fn advance(&mut self, context: &Context, iterations: u32, progress: Option<&Progress>) -> Result<Report> {
         let stopwatch = Stopwatch::start();
         self.check_iterations(iterations)?;
+        self.require_candidates(iterations, BYTES_PER_CANDIDATE)?;
         let mut report = Report::default();
         context.run(progress, |job| self.iterate(job, iterations, &mut report))?;
         Ok(self.finish(report, &stopwatch))
@@ -155,13 +156,18 @@ impl Psp {
         is_sooner_projected(mesh, measures, options.radius, covered)
     }
 
+    /// Refuses iterations for which memory does not suffice, with so many bytes per sample.
+    fn require_candidates(&self, iterations: u32, bytes: f64) -> Result<()> {
+        if iterations == 0 || self.iterations > 0 || !self.projects {
+            return Ok(());
+        }
+        let radius = self.options.radius;
+        let estimate = self.measures.expected_samples(&self.mesh, radius);
+        require_samples(estimate, bytes, "radius", &format!("{radius:?} asks for"))
+    }
+
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {
         let iterations = if self.projects { iterations } else { 0 };
-        if iterations > 0 && self.iterations == 0 {
-            let radius = self.options.radius;
-            let estimate = self.measures.expected_samples(&self.mesh, radius);
-            require_samples(estimate, BYTES_PER_CANDIDATE, "radius", &format!("{radius:?} asks for"))?;
-        }
         for step in 0..iterations {
             let share = |step: u32| f64::from(step) / f64::from(iterations);
             let job = job.part(share(step), share(step + 1));
@@ -276,6 +282,8 @@ fn make(
         None => u32::from(!maximal || psp.is_sooner_projected()?),
     };
     psp.check_iterations(iterations)?;
+    let is_one_local = iterations == 1 && options.projectors == Projectors::Local;
+    psp.require_candidates(iterations, if is_one_local { BYTES_PER_HIT } else { BYTES_PER_CANDIDATE })?;
     let mut report = Report::default();
     context.run(progress, |job| {
         let share = match (maximal, iterations) {
@@ -313,12 +321,13 @@ impl FlatOptions<'_> {
     }
 }
 
-/// Peak memory per sample of a set in progressive order; of an exact number of samples; of both; and of a set that grows by
-/// iterations.
+/// Peak memory per sample of a set in progressive order; of an exact number of samples; of both; of a set that grows by
+/// iterations; and of one of a single iteration of local projectors.
 const BYTES_PER_RANKED_SAMPLE: f64 = 202.0;
 const BYTES_PER_COUNTED_SAMPLE: f64 = 160.0;
 const BYTES_PER_FIRST_SAMPLE: f64 = 216.0;
 const BYTES_PER_CANDIDATE: f64 = 175.0;
+const BYTES_PER_HIT: f64 = 152.0;
 
 /// The largest number of samples that can be indexed.
 const INDEXABLE: usize = u32::MAX as usize;

@@ -17,7 +17,7 @@ const IMPORTING: &[(&str, usize)] = &[
     ("dcr/surface/mod.rs", 14),
     ("dcr/surface/relaxation.rs", 16),
     ("dcr/uniform/classes.rs", 15),
-    ("dcr/uniform/mod.rs", 16),
+    ("dcr/uniform/mod.rs", 15),
     ("kdrt/classes/mod.rs", 17),
     ("kdrt/progressive.rs", 15),
     ("psp/adaptive/sample.rs", 18),

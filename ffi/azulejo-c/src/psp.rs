@@ -109,9 +109,10 @@ pub struct azulejo_psp_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// The number of projections of patterns onto the whole mesh by azulejo_psp_sample, before it
-    /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 1 where the set is then made sooner,
-    /// by a rule of mesh and radius alone, or if `maximal` is 0, and 0 otherwise; a `maximal` of 0
-    /// with 0 iterations is refused. azulejo_psp_create refuses any value but the default.
+    /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 1 where the set is made sooner with
+    /// it, by a rule of mesh, radius and given samples, or if `maximal` is 0, and 0 otherwise. A
+    /// `maximal` of 0 with 0 iterations is refused. azulejo_psp_create refuses any value but the
+    /// default.
     pub iterations: u32,
     /// The smallest straight distance between two samples: above 0, and at least 64 float spacings.
     /// It has no default; with a `count` it must be 0.

@@ -29,6 +29,10 @@ mod forces;
 mod kept;
 mod links;
 mod lists;
+mod settings;
+mod variance;
+
+pub use settings::{Convergence, Distribution, Thesis, Visits};
 
 use glam::DVec2;
 
@@ -38,141 +42,11 @@ use crate::dcr::thesis::forces::{Forces, Particle};
 use crate::dcr::thesis::kept::KeptMesh;
 use crate::dcr::thesis::links::{DelaunayLinks, Links, NearestLinks};
 use crate::dcr::thesis::lists::KeptLists;
-use crate::error::{Error, Result};
+use crate::dcr::thesis::variance::Variance;
+use crate::error::Result;
 use crate::geometry::{Delaunay, Frame, along_strips};
-use crate::index::Grid2;
 use crate::job::{Job, chunks};
-use crate::math::square;
 use crate::points::Domain;
-use crate::setters::setters;
-
-// The settings of the thesis's algorithm (§4.4.2 and §4.4.3).
-
-/// The division of a tension between the point that visits an edge and the neighbour at its other end (Fig. 4.19).
-///
-/// If edges are visited from both ends ([`Visits::BothEnds`]), all but [`Distribution::Activeness`] give the same
-/// displacements on the Delaunay neighbourhood. They differ with nearest neighbours, where one end may be among the
-/// nearest of the other but not conversely, and with [`Visits::OneEnd`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distribution {
-    /// By activeness: a point whose tensions cancel out moves its neighbours, one whose tensions agree moves itself.
-    Activeness,
-    /// Half to each end: the thesis's algorithm without activeness.
-    Average,
-    /// All to the neighbour.
-    Dominant,
-    /// All to the visiting point itself.
-    Zero,
-    /// 80 % to the visiting point, 20 % to the neighbour. (Of the thesis's two descriptions, the one in the list of
-    /// strategies that names the numbers in this order.)
-    EightyTwenty,
-}
-
-/// The ends from which an edge is visited. Each visit applies its tension to both ends once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Visits {
-    /// From each end that has the other in its neighbourhood, as in the thesis's pseudo-code.
-    BothEnds,
-    /// From one end. Of two that are in each other's neighbourhood it is the same one in every step, chosen by a coin
-    /// keyed by the seed and the two points, so that the distributions of Fig. 4.19 differ. Points move about half as
-    /// far in a step.
-    OneEnd,
-}
-
-/// The test of convergence.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Convergence {
-    /// The motion ([`Report::motion`](crate::dcr::Report::motion)) falls to the tolerance. It does not depend on the
-    /// step size.
-    Motion,
-    /// The thesis's test (§4.4.2): ten times in a row the variance of the distances to the nearest point changes by
-    /// less than 0.1 % in a step, while more than 99 % of the points are stable, which the thesis does not define: here
-    /// those that move by less than 0.01 `d_max` in the step. Both halve with the step size, so the smaller that is,
-    /// the earlier the test is met. In sets of a few hundred points the variance may never rest.
-    Variance,
-}
-
-/// The settings of the thesis's algorithm. Lengths are in units of `d_max`, the distance of neighbours if the same
-/// number of points stood in hexagonal arrangement on the domain's area (and never more than its shorter side).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Thesis {
-    /// Neighbours closer than this repel each other; above 0, at most 1. The thesis: 0.8 to 0.99.
-    pub conflict_radius: f64,
-    /// Delaunay neighbours farther apart attract each other; at least the conflict radius. The thesis: 1.01 to 1.2.
-    pub attraction_radius: f64,
-    /// The step size λ: the displacement by a tension of 1; above 0, at most 1.
-    pub step: f64,
-    /// The factor of λ after every step; above 0, at most 1. With 1 it is constant, as in the thesis's experiments;
-    /// the thesis recommends a decaying one without a rule for it. All steps together are no longer than
-    /// `step / (1 - decay)`: about 10 are needed from a random start.
-    pub decay: f64,
-    /// `K` of the nearest neighbourhood; at least 1.
-    pub neighbours: u32,
-    /// The division of tensions.
-    pub distribution: Distribution,
-    /// The ends from which edges are visited.
-    pub visits: Visits,
-    /// The test of convergence.
-    pub convergence: Convergence,
-}
-
-impl Default for Thesis {
-    /// The settings of the thesis: radii 0.95 and 1.05, constant λ = 0.05, activeness, visits from both ends; 6 nearest
-    /// neighbours, the number that a point of the plane has on average, as the thesis names none. Convergence is judged
-    /// by motion.
-    fn default() -> Self {
-        Self {
-            conflict_radius: 0.95,
-            attraction_radius: 1.05,
-            step: 0.05,
-            decay: 1.0,
-            neighbours: 6,
-            distribution: Distribution::Activeness,
-            visits: Visits::BothEnds,
-            convergence: Convergence::Motion,
-        }
-    }
-}
-
-setters!(Thesis {
-    conflict_radius: f64,
-    attraction_radius: f64,
-    step: f64,
-    decay: f64,
-    neighbours: u32,
-    distribution: Distribution,
-    visits: Visits,
-    convergence: Convergence,
-});
-
-impl Thesis {
-    /// Refuses values out of their range.
-    ///
-    /// # Errors
-    /// [`Error::InvalidArgument`] with the name of the field.
-    pub fn check(&self) -> Result<()> {
-        let within = |argument, value: f64| {
-            // The comparison fails for NaN too.
-            if value > 0.0 && value <= 1.0 {
-                Ok(())
-            } else {
-                Err(Error::invalid(argument, format!("{value} is not above 0 and at most 1")))
-            }
-        };
-        within("conflict_radius", self.conflict_radius)?;
-        within("step", self.step)?;
-        within("decay", self.decay)?;
-        if !(self.conflict_radius..).contains(&self.attraction_radius) {
-            let reason = format!("{} is below conflict_radius {}", self.attraction_radius, self.conflict_radius);
-            return Err(Error::invalid("attraction_radius", reason));
-        }
-        if self.neighbours == 0 {
-            return Err(Error::invalid("neighbours", "0 is not at least 1"));
-        }
-        Ok(())
-    }
-}
 
 /// The points, their activeness and the test that ends the steps.
 pub struct ThesisRelaxation {
@@ -321,63 +195,6 @@ impl PlaneRelaxation for ThesisRelaxation {
     }
 }
 
-// The thesis's own test of convergence (§4.4.2): the variance of the distances to the nearest point no longer changes,
-// and more than 99 % of the points are stable. It does not define a stable point. With the definition chosen here the
-// second condition was never decisive in the runs examined: when the variance is constant, points are at rest.
-
-/// The largest relative change in a step at which the variance rests.
-const CHANGE: f64 = 1e-3;
-
-/// The number of times in a row that it must rest.
-const STEPS: u32 = 10;
-
-/// A point that moves by less than this in a step, in spacings, is stable; and the fraction of the points that must be.
-const STABLE_MOTION: f64 = 0.01;
-const STABLE_SHARE: f64 = 0.99;
-
-/// The variance of nearest distances, step after step.
-#[derive(Default)]
-pub struct Variance {
-    last: Option<f64>,
-    resting: u32,
-}
-
-impl Variance {
-    /// Updates the test with a step from `before` to `after`.
-    pub fn after_step(&mut self, job: &Job, frame: &Frame, before: &[DVec2], after: &[DVec2]) -> Result<()> {
-        let variance = variance(&nearest_distances(job, frame, after)?);
-        let is_stable = |&(&from, &to): &(&DVec2, &DVec2)| frame.offset(from, to).length() < STABLE_MOTION;
-        let stable = before.iter().zip(after).filter(is_stable).count();
-        let rests = self.last.is_some_and(|last| (variance - last).abs() < CHANGE * last)
-            && stable as f64 > STABLE_SHARE * after.len() as f64;
-        self.resting = if rests { self.resting + 1 } else { 0 };
-        self.last = Some(variance);
-        Ok(())
-    }
-
-    /// True if the test is met.
-    pub fn has_settled(&self) -> bool {
-        self.resting >= STEPS
-    }
-}
-
-/// The distance of each point to the nearest other one, in spacings; on a torus around it.
-fn nearest_distances(job: &Job, frame: &Frame, positions: &[DVec2]) -> Result<Vec<f64>> {
-    let domain = Domain { min: [0.0; 2], max: frame.size().to_array(), boundary: frame.boundary() };
-    let grid = Grid2::new(domain, positions.iter().map(DVec2::to_array), 1.0);
-    let chunks = chunks(positions.len());
-    job.flat_map(chunks.len(), |chunk| {
-        let nearest = |i: usize| grid.nearest_squared(positions[i].to_array(), Some(i as u32)).sqrt();
-        chunks.range(chunk).map(nearest).collect()
-    })
-}
-
-fn variance(values: &[f64]) -> f64 {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    values.iter().map(|value| square(value - mean)).sum::<f64>() / count
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -438,45 +255,5 @@ mod tests {
         let mut lists = KeptLists::new(frame, 0.95, 6, heap.len());
         Context::new(1).unwrap().run(None, |job| lists.follow(job, &heap)).unwrap();
         assert!(lists.links(&heap).is_none());
-    }
-
-    #[test]
-    fn distances_go_around_the_torus_and_their_variance_is_that_of_all() {
-        let points = [[0.0, 0.1], [0.0, 0.9], [0.5, 0.5], [0.5, 0.6]].map(|[x, y]| DVec2::new(x, y));
-        for (boundary, expected) in
-            [(Boundary::Periodic, [0.2, 0.2, 0.1, 0.1]), (Boundary::Bounded, [0.64, 0.58, 0.1, 0.1])]
-        {
-            let domain = Domain::unit(boundary);
-            let frame = Frame::new(domain, 4);
-            let positions: Vec<_> = points.iter().map(|&point| point / frame.spacing()).collect();
-            let find = |job: &Job| nearest_distances(job, &frame, &positions);
-            let found = Context::new(1).unwrap().run(None, find).unwrap();
-            for (found, expected) in found.into_iter().zip(expected) {
-                assert!((found * frame.spacing() - expected).abs() < 0.005, "{found} {expected}");
-            }
-        }
-        assert!((variance(&[1.0, 2.0, 3.0, 6.0]) - 3.5).abs() < 1e-12);
-    }
-
-    #[test]
-    fn ten_calm_steps_in_a_row_meet_the_test() {
-        let frame = Frame::new(Domain::unit(Boundary::Periodic), 3);
-        let context = Context::new(1).unwrap();
-        let calm = [DVec2::ZERO, DVec2::new(0.3, 0.0), DVec2::new(0.0, 0.5)];
-        let mut variance = Variance::default();
-        let mut step = |before: &[DVec2], after: &[DVec2]| {
-            context.run(None, |job| variance.after_step(job, &frame, before, after)).unwrap();
-            variance.has_settled()
-        };
-        // The first step has no change to compare with; a point that jumps starts the count again, as does a new
-        // variance.
-        assert!((0..10).all(|_| !step(&calm, &calm)));
-        let elsewhere = calm.map(|point| point + 0.02);
-        assert!(!step(&calm, &elsewhere));
-        assert!((0..9).all(|_| !step(&calm, &calm)));
-        let wider = [calm[0], calm[1], calm[2] * 1.02];
-        assert!(!step(&wider, &wider));
-        assert!((0..9).all(|_| !step(&wider, &wider)));
-        assert!(step(&wider, &wider));
     }
 }
