@@ -15,15 +15,12 @@ use std::sync::Arc;
 use crate::check;
 use crate::error::Result;
 use crate::interior::tree::Tree;
-use crate::interior::winding::{Caps, Wound};
+use crate::interior::winding::Caps;
 use crate::job::{Context, Progress, chunks};
 use crate::mesh::Mesh;
 
 /// The winding number from which a point is inside.
 const WOUND: f64 = 0.5;
-
-/// Winding numbers of far nodes differ from those of their triangles by less than this.
-const WINDING_ERROR: f64 = 0.02;
 
 /// The inside of a mesh, made for many questions. Made from a mesh by [`Interior::of`], which keeps it.
 #[derive(Debug)]
@@ -47,7 +44,7 @@ impl Interior {
         let triangles: Vec<_> = mesh.sampled_triangles().map(|number| mesh.corners(number)).collect();
         let (low, high) = mesh.bounds();
         let (tree, _) = Tree::new(&triangles);
-        let caps = (!sides.is_closed).then(|| Caps::new(mesh, &sides.boundary));
+        let caps = (sides.odd_edges > 0).then(|| Caps::new(mesh, &sides.boundary));
         Self { tree, caps, bounds: [low, high] }
     }
 
@@ -67,15 +64,12 @@ impl Interior {
         }
         match &self.caps {
             None => self.tree.crossings(point) % 2 != 0,
-            Some(caps) => self.wound(caps, point, 0.0).number.abs() >= WOUND,
+            Some(caps) => {
+                // That of the surface with its caps, less that of the caps.
+                let closed = self.tree.crossings(point) + caps.tree.crossings(point);
+                (f64::from(closed) - caps.at(point)).abs() >= WOUND
+            }
         }
-    }
-
-    /// The winding number of the surface without its caps.
-    fn wound(&self, caps: &Caps, point: [f32; 3], reach: f64) -> Wound {
-        let closed = self.tree.crossings(point) + caps.tree.crossings(point);
-        let Wound { number, change } = caps.at(point, reach);
-        Wound { number: f64::from(closed) - number, change }
     }
 
     /// [`Interior::contains`] for many points, on all threads.
@@ -93,27 +87,6 @@ impl Interior {
         let chunks = chunks(positions.len());
         let of = |chunk: usize| positions[chunks.range(chunk)].iter().map(|&point| self.contains(point)).collect();
         context.run(progress, |job| job.flat_map(chunks.len(), of))
-    }
-
-    /// The winding number of the caps in a ball, if the same side follows from it for all points of the ball between the same
-    /// triangles: see [`Interior::side_among`]. 0 for a closed mesh.
-    pub(crate) fn caps_around(&self, point: [f32; 3], reach: f64) -> Option<f64> {
-        let Some(caps) = &self.caps else {
-            return Some(0.0);
-        };
-        let Wound { number, change } = caps.at(point, reach);
-        let from_half = (number - number.floor() - WOUND).abs();
-        (from_half > change + 2.0 * WINDING_ERROR).then_some(number)
-    }
-
-    /// True if a point is inside that lies in a ball with this winding number of the caps. It takes no more than for a closed
-    /// mesh.
-    pub(crate) fn side_among(&self, point: [f32; 3], caps_around: f64) -> bool {
-        let Some(caps) = &self.caps else {
-            return self.contains(point);
-        };
-        let closed = self.tree.crossings(point) + caps.tree.crossings(point);
-        (f64::from(closed) - caps_around).abs() >= WOUND
     }
 
     /// Visits the corners of the triangles whose boxes touch a box.

@@ -14,8 +14,8 @@ type Edge = (u32, bool);
 /// The triangles that share edges.
 #[derive(Debug)]
 pub struct Sides {
-    /// True if an even number of triangles shares each edge.
-    pub is_closed: bool,
+    /// The number of edges that an odd number of triangles shares: 0 of a closed mesh.
+    pub odd_edges: usize,
     /// Of a mesh that is not closed: the edges that are not passed as often one way as the other, once for each time that is
     /// missing, in the direction that is.
     pub boundary: Vec<[u32; 2]>,
@@ -25,15 +25,18 @@ impl Sides {
     /// The edges of the triangles that the mask does not leave out.
     pub fn of(mesh: &Mesh) -> Self {
         let sampled = || mesh.sampled_triangles().map(|number| mesh.triangles()[number as usize]);
-        let closed = Self { is_closed: true, boundary: Vec::new() };
+        let closed = Self { odd_edges: 0, boundary: Vec::new() };
         // To make vertices at one place one can close a mesh, but not open it.
-        if is_even(&edges(mesh.positions().len(), sampled())) {
+        if odd_edges(&edges(mesh.positions().len(), sampled())) == 0 {
             return closed;
         }
         let places = places(mesh.positions());
         let welded = sampled().map(|triangle| triangle.map(|vertex| places[vertex as usize]));
         let edges = edges(mesh.positions().len(), welded);
-        if is_even(&edges) { closed } else { Self { is_closed: false, boundary: boundary(&edges) } }
+        match odd_edges(&edges) {
+            0 => closed,
+            odd_edges => Self { odd_edges, boundary: boundary(&edges) },
+        }
     }
 }
 
@@ -42,11 +45,11 @@ impl Mesh {
     /// number of times. The direction of triangles does not matter, nor do intersections. Vertices at one place are one; a
     /// triangle with two of them has no edges; triangles that the mask leaves out are not there. O(n) the first time.
     pub fn is_closed(&self) -> bool {
-        self.sides().is_closed
+        self.sides().odd_edges == 0
     }
 
     /// The edges, kept with the mesh.
-    pub(super) fn sides(&self) -> Arc<Sides> {
+    pub(crate) fn sides(&self) -> Arc<Sides> {
         let kept = self.kept(|| Ok(()), || Ok(Sides::of(self)));
         kept.unwrap_or_else(|_| Arc::new(Sides::of(self)))
     }
@@ -67,8 +70,9 @@ fn shared(edges: &[Edge]) -> impl Iterator<Item = &[Edge]> {
     edges.chunk_by(|a, b| a.0 == b.0)
 }
 
-fn is_even(edges: &Binned<Edge>) -> bool {
-    (0..edges.len()).all(|vertex| shared(edges.bin(vertex)).all(|edge| edge.len().is_multiple_of(2)))
+fn odd_edges(edges: &Binned<Edge>) -> usize {
+    let is_odd = |edge: &&[Edge]| !edge.len().is_multiple_of(2);
+    (0..edges.len()).map(|vertex| shared(edges.bin(vertex)).filter(is_odd).count()).sum()
 }
 
 /// See [`Sides::boundary`].

@@ -7,10 +7,6 @@
 //! Departures: the boundary of each part of the surface is closed by *caps*, triangles with one corner in common. The winding
 //! number of the surface with its caps is the sum of crossings of a ray; only that of the caps, which is taken away, asks a tree
 //! of angles. So a large mesh with small holes costs little more than a closed one, and loose triangles are their own caps.
-//!
-//! And there is a bound of the change around a point. The gradient of a solid angle depends on the boundary of the surface
-//! alone, as the magnetic field of a current along it (Biot and Savart): edges of length L at a distance d change it by
-//! L / d² per length at most.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -18,7 +14,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::interior::crossing::side_of_plane;
-use crate::interior::tree::{CHILDREN, Tree, hull};
+use crate::interior::tree::{CHILDREN, Tree};
 use crate::math::atan2;
 use crate::mesh::{Mesh, exact};
 
@@ -41,8 +37,6 @@ struct Moments {
     /// The columns of the sum of areas along normals by the distances of centroids from the centre: one column per axis of the
     /// normal.
     first: [DVec3; 3],
-    /// The length of the boundary.
-    boundary: f64,
 }
 
 /// The caps of a surface by their angles.
@@ -51,17 +45,6 @@ pub struct Caps {
     pub tree: Tree,
     /// The moments of the tree's nodes, by its levels.
     moments: Vec<Vec<Moments>>,
-    /// The length of the boundary that each triangle closes.
-    boundary: Vec<f64>,
-}
-
-/// A winding number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wound {
-    pub number: f64,
-    /// How much it can change along paths in a ball around the point that cross no triangle; infinite if there may be
-    /// boundary in the ball.
-    pub change: f64,
 }
 
 impl Caps {
@@ -75,20 +58,19 @@ impl Caps {
         }
         let place = |vertex: u32| mesh.positions()[vertex as usize];
         let cap = |&[from, to]: &[u32; 2]| [root(&mut parents, from), from, to].map(place);
-        Self::of(&boundary.iter().map(cap).collect::<Vec<_>>(), |[_, from, to]| exact(*from).distance(exact(*to)))
+        Self::of(&boundary.iter().map(cap).collect::<Vec<_>>())
     }
 
-    /// Triangles as caps, with the boundary of each.
-    fn of(triangles: &[[[f32; 3]; 3]], boundary: impl Fn(&[[f32; 3]; 3]) -> f64) -> Self {
+    /// Triangles as caps.
+    fn of(triangles: &[[[f32; 3]; 3]]) -> Self {
         let (tree, _) = Tree::new(triangles);
-        let boundary: Vec<f64> = tree.corners.iter().map(boundary).collect();
         let mut moments: Vec<Vec<Moments>> = Vec::new();
         for level in 0..tree.levels() {
             let below = moments.last();
             let node = |node: usize| {
                 let children = |count: usize| CHILDREN * node..(CHILDREN * (node + 1)).min(count);
                 let of: Vec<Moments> = match below {
-                    None => children(tree.corners.len()).map(|t| of_triangle(&tree.corners[t], boundary[t])).collect(),
+                    None => children(tree.corners.len()).map(|t| of_triangle(&tree.corners[t])).collect(),
                     Some(below) => below[children(below.len())].to_vec(),
                 };
                 sum(&of, tree.node_box(level, node))
@@ -96,28 +78,19 @@ impl Caps {
             let nodes = (0..tree.nodes(level)).map(node).collect();
             moments.push(nodes);
         }
-        Self { tree, moments, boundary }
+        Self { tree, moments }
     }
 
-    /// The winding number of the caps at a point, and its change within a distance.
-    pub fn at(&self, place: [f32; 3], reach: f64) -> Wound {
-        let (point, mut angle, mut change) = (exact(place), 0.0, 0.0);
-        let mut grow = |length: f64, distance: f64| {
-            if length > 0.0 {
-                let nearest = distance - reach;
-                change += if nearest > 0.0 { reach * length / (nearest * nearest) } else { f64::INFINITY };
-            }
-        };
+    /// The winding number of the caps at a point.
+    pub fn at(&self, place: [f32; 3]) -> f64 {
+        let (point, mut angle) = (exact(place), 0.0);
         let mut stack = vec![(self.moments.len() - 1, 0)];
         while let Some((level, node)) = stack.pop() {
             let moments = &self.moments[level][node];
-            let (away, radius) = (moments.centre - point, moments.radius);
+            let away = moments.centre - point;
             let distance = away.length();
-            // Boundary that is near is measured by its triangles.
-            let is_clear = moments.boundary == 0.0 || distance > radius + 2.0 * reach;
-            if distance > FAR * radius && is_clear {
+            if distance > FAR * moments.radius {
                 angle += moments.angle(away, distance);
-                grow(moments.boundary, distance - radius);
             } else if level > 0 {
                 stack.extend(
                     (CHILDREN * node..(CHILDREN * (node + 1)).min(self.moments[level - 1].len()))
@@ -125,16 +98,11 @@ impl Caps {
                 );
             } else {
                 for triangle in CHILDREN * node..(CHILDREN * (node + 1)).min(self.tree.corners.len()) {
-                    let corners = &self.tree.corners[triangle];
-                    angle += solid_angle(place, corners);
-                    if self.boundary[triangle] > 0.0 {
-                        let [low, high] = hull(corners).map(exact);
-                        grow(self.boundary[triangle], (point - point.clamp(low, high)).length());
-                    }
+                    angle += solid_angle(place, &self.tree.corners[triangle]);
                 }
             }
         }
-        Wound { number: angle / SPHERE, change: change / SPHERE }
+        angle / SPHERE
     }
 }
 
@@ -149,10 +117,10 @@ impl Moments {
     }
 }
 
-fn of_triangle(corners: &[[f32; 3]; 3], boundary: f64) -> Moments {
+fn of_triangle(corners: &[[f32; 3]; 3]) -> Moments {
     let [a, b, c] = corners.map(exact);
     let dipole = (b - a).cross(c - a) / 2.0;
-    Moments { centre: (a + b + c) / 3.0, area: dipole.length(), dipole, boundary, ..Moments::default() }
+    Moments { centre: (a + b + c) / 3.0, area: dipole.length(), dipole, ..Moments::default() }
 }
 
 /// The moments of several together, in a box.
@@ -165,7 +133,6 @@ fn sum(parts: &[Moments], hull: [[f32; 3]; 2]) -> Moments {
     for part in parts {
         let offset = part.centre - centre;
         total.dipole += part.dipole;
-        total.boundary += part.boundary;
         for axis in 0..3 {
             total.first[axis] += part.first[axis] + offset * part.dipole[axis];
         }
@@ -228,12 +195,6 @@ mod tests {
         (0..count).map(triangle).collect()
     }
 
-    /// The boundary of triangles that share no edge.
-    fn boundary(corners: &[[f32; 3]; 3]) -> f64 {
-        let [a, b, c] = corners.map(exact);
-        a.distance(b) + b.distance(c) + c.distance(a)
-    }
-
     fn all(triangles: &[[[f32; 3]; 3]], point: [f32; 3]) -> f64 {
         let angle = |corners: &[[f32; 3]; 3]| solid_angle(point, corners);
         triangles.iter().map(angle).sum::<f64>() / SPHERE
@@ -245,37 +206,15 @@ mod tests {
         for (triangles, error) in
             [(bowl(30, 1.0), 0.015), (bowl(30, 0.3), 0.01), (soup(60), 0.001), (soup(2000), 0.002)]
         {
-            let caps = Caps::of(&triangles, |_| 0.0);
+            let caps = Caps::of(&triangles);
             let mut worst: f64 = 0.0;
             for _ in 0..400 {
                 let point = [0; 3].map(|_: i32| 3.0 * rng.unit() as f32 - 1.5);
-                worst = worst.max((caps.at(point, 0.0).number - all(&triangles, point)).abs());
+                worst = worst.max((caps.at(point) - all(&triangles, point)).abs());
             }
             assert!(worst < error, "{worst}");
         }
         let sphere = bowl(40, 1.0);
         assert!((all(&sphere, [0.1, 0.2, 0.3]) - 1.0).abs() < 1e-6 && all(&sphere, [1.0, 1.0, 0.3]).abs() < 1e-6);
-    }
-
-    #[test]
-    fn changes_are_bounded_where_no_triangle_is_crossed() {
-        let mut rng = Rng::at(2, Draw::Probe, &[]);
-        let mut known = 0;
-        for triangles in [bowl(30, 0.3), soup(20)] {
-            let caps = Caps::of(&triangles, boundary);
-            for _ in 0..2000 {
-                let reach = 0.2 * rng.unit() * rng.unit();
-                let point = [0; 3].map(|_: i32| 3.0 * rng.unit() as f32 - 1.5);
-                let away = DVec3::new(rng.unit() - 0.5, rng.unit() - 0.5, rng.unit() - 0.5).normalize() * reach;
-                let other = (exact(point) + away).as_vec3().to_array();
-                let Wound { change, .. } = caps.at(point, reach);
-                // A jump is a crossing.
-                let moved = (all(&triangles, point) - all(&triangles, other)).abs();
-                let crosses = moved > 0.5;
-                assert!(crosses || moved <= change + 1e-6, "{moved} {change}");
-                known += usize::from(change < 0.2);
-            }
-        }
-        assert!(known > 500, "{known}");
     }
 }

@@ -60,11 +60,6 @@ impl Body {
         Solid { interior: &self.interior, tolerance: self.tolerance }
     }
 
-    /// True if the mesh is closed.
-    pub fn is_closed(&self) -> bool {
-        self.interior.is_closed()
-    }
-
     /// How deep places can be that a set with this covering radius leaves open.
     pub fn depth(&self, covering_radius: f64) -> f64 {
         let spacing = float_spacing(self.domain.min.iter().chain(&self.domain.max));

@@ -107,7 +107,7 @@ impl<S: Shape> Fill<'_, S> {
         let (cells, mut parts) = (&levels[0], Voxels::default());
         let (per_cell, mut index) = (u64::from(cells.all.count_ones()), 0);
         while index < open.cut.len() && !cells.is_last {
-            let [inside, cut] = self.shape.parts(lanes, self.grid, cells, open.cut[index], cells.all, self.pass);
+            let [inside, cut] = self.shape.parts(lanes, self.grid, cells, open.cut[index], cells.all);
             cells.push_parts(open.cut[index], inside, &mut parts.inside);
             cells.push_parts(open.cut[index], cut, &mut parts.cut);
             index += 1;
@@ -171,7 +171,7 @@ impl<S: Shape> Fill<'_, S> {
             while index < open.cut.len() {
                 let bits = self.grid.open_parts::<L, GIVEN>(lanes, level, open.cut[index]);
                 if bits != 0 {
-                    let [inside, cut] = self.shape.parts(lanes, self.grid, level, open.cut[index], bits, self.pass);
+                    let [inside, cut] = self.shape.parts(lanes, self.grid, level, open.cut[index], bits);
                     level.push_parts(open.cut[index], inside, &mut parts.inside);
                     level.push_parts(open.cut[index], cut, &mut parts.cut);
                 }

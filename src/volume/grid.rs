@@ -10,6 +10,8 @@
 //! `1 + SLACK` none, and what lies between is decided by the integers. Voxels that a ball covers within the slack only are
 //! divided, until the last ones are searched in integers (`search.rs`).
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::plane::{Disk, Rect, Separation};
 use crate::simd::{LANES, Lanes};
 use crate::volume::obstacles::{Cells, Obstacles};
@@ -44,6 +46,20 @@ struct Page([[f32; LANES]; 3]);
 
 impl Page {
     const EMPTY: Self = Self([[FAR; LANES]; 3]);
+}
+
+/// Grids that no thread uses now: their memory is used again.
+#[derive(Default)]
+pub struct Grids(Mutex<Vec<Grid>>);
+
+impl Grids {
+    pub fn take(&self) -> Grid {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
+    }
+
+    pub fn give(&self, grid: Grid) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(grid);
+    }
 }
 
 /// The cells of a region, a box of lattice points, and the balls of one radius that touch them.

@@ -3,8 +3,7 @@
 //! A voxel is *cut* if a triangle meets it, tested by separating axes (Schwarz and Seidel 2010, "Fast parallel surface and solid
 //! voxelization on GPUs", section 3, by intervals instead of edge functions). Voxels that are not cut and share faces lie on one
 //! side of the surface: cells are flooded, then the parts of each cut cell, beginning at neighbours whose side is known, and one
-//! question to the mesh (`interior/`) decides for all that a flood reaches. The side of an open mesh can change without a triangle, near
-//! its holes: what is not certain there is cut too.
+//! question to the mesh (`interior/`), which is closed, decides for all that a flood reaches.
 //!
 //! Cut voxels are divided until they are small: those of which no side is longer than the tolerance are dropped. So a place inside
 //! that is not covered lies in a voxel with such sides that meets the surface. Darts on cut voxels ask the mesh.
@@ -18,7 +17,6 @@ use crate::interior::Interior;
 use crate::math::{rounded_down, rounded_up};
 use crate::plane::{Lattice, Rect};
 use crate::simd::Lanes;
-use crate::volume::fill::Pass;
 use crate::volume::grid::Grid;
 use crate::volume::search::Centre;
 use crate::volume::shape::{Shape, Voxels};
@@ -80,8 +78,7 @@ impl<'a> Solid<'a> {
         let margin = (Grid::margin(lattice.radius) / lattice.radius + ERROR) as f32;
         let tolerance = self.tolerance as f32;
         let half = std::array::from_fn(|axis| 0.5 * f64::from(region.length(axis)) / lattice.radius);
-        let (interior, side, caps, caps_of_cells) = (self.interior, half, None, Vec::new());
-        Inside { interior, lattice, tolerance, region, half, side, margin, triangles, met, known, caps, caps_of_cells }
+        Inside { interior: self.interior, lattice, tolerance, region, half, side: half, margin, triangles, met, known }
     }
 }
 
@@ -102,10 +99,6 @@ pub struct Inside<'a> {
     met: Binned<u32>,
     /// The parts of each cell that are known to lie inside, and outside.
     known: Vec<[u64; 2]>,
-    /// The winding number of the caps in the region, if that decides for all of it ([`Interior::caps_around`]); or in the cells
-    /// that were asked for.
-    caps: Option<f64>,
-    caps_of_cells: Vec<Option<Option<f64>>>,
 }
 
 impl Inside<'_> {
@@ -137,39 +130,13 @@ impl Inside<'_> {
         centre
     }
 
-    /// The position of a lattice point near a place that is given in radii from the region's centre.
-    fn position(&self, place: [f32; 3]) -> [f32; 3] {
+    /// The side of the lattice point nearest to a place that is given in radii from the region's centre.
+    fn is_inside(&self, place: [f32; 3]) -> bool {
         let Self { half, lattice, region, .. } = self;
-        lattice.position(std::array::from_fn(|axis| {
+        self.interior.contains(lattice.position(std::array::from_fn(|axis| {
             let along = (f64::from(place[axis]) + half[axis]) * lattice.radius;
             region.min[axis] + (along as i32).clamp(0, region.length(axis) - 1)
-        }))
-    }
-
-    /// The winding number of the caps within a distance, in radii, of a place, if that decides for all of it.
-    fn caps_around(&self, place: [f32; 3], reach: f32) -> Option<f64> {
-        let reach = f64::from(reach + 2.0 * self.margin) * self.lattice.radius * self.lattice.unit();
-        self.interior.caps_around(self.position(place), reach)
-    }
-
-    /// The same for a cell.
-    fn caps_of_cell(&mut self, grid: &Grid, cell: usize) -> Option<f64> {
-        if self.caps.is_some() {
-            return self.caps;
-        }
-        if let Some(known) = self.caps_of_cells[cell] {
-            return known;
-        }
-        let caps = self.caps_around(self.cell_centre(grid, cell), half_diagonal(self.side));
-        self.caps_of_cells[cell] = Some(caps);
-        caps
-    }
-
-    /// The side of all that a path leads to which stays within a distance, in radii, of a place and meets no triangle, if
-    /// that is certain. `caps` is known of places for which it decides.
-    fn side(&self, place: [f32; 3], reach: f32, caps: Option<f64>) -> Option<bool> {
-        let caps = caps.or_else(|| self.caps_around(place, reach))?;
-        Some(self.interior.side_among(self.position(place), caps))
+        })))
     }
 
     /// The parts of a voxel, `centre` from the region's, that triangles meet, of those in `wanted`.
@@ -248,46 +215,23 @@ impl Inside<'_> {
         seeds
     }
 
-    /// The sides of the parts of a voxel that are not cut: those inside, outside, and of no certain side. Only components
-    /// with parts in `wanted` are asked for. Neighbours in `seeds` decide where the caps do.
-    fn sides(
-        &self,
-        level: &Level,
-        centre: [f32; 3],
-        [free, wanted]: [u64; 2],
-        seeds: [u64; 2],
-        caps: Option<f64>,
-    ) -> [u64; 3] {
-        let (mut sides, mut left) = ([0; 3], free);
+    /// The sides of the parts of a voxel that are not cut: those inside and outside. Neighbours in `seeds` decide, and only
+    /// components with parts in `wanted` are asked for.
+    fn sides(&self, level: &Level, centre: [f32; 3], [free, wanted]: [u64; 2], seeds: [u64; 2]) -> [u64; 2] {
+        let (mut sides, mut left) = ([0; 2], free);
         while left != 0 {
             let component = flood(left & left.wrapping_neg(), free);
             left &= !component;
-            if caps.is_some() && component & seeds[0] != 0 {
+            if component & seeds[0] != 0 {
                 sides[0] |= component;
-            } else if caps.is_some() && component & seeds[1] != 0 {
+            } else if component & seeds[1] != 0 {
                 sides[1] |= component;
             } else if component & wanted != 0 {
                 let first = level.part_centre(centre, component.trailing_zeros());
-                let [x, y, z] = level.halves;
-                match self.side(first, 2.0 * (x + y + z), caps) {
-                    Some(is_inside) => sides[usize::from(!is_inside)] |= component,
-                    None => self.each_side(level, centre, component & wanted, &mut sides),
-                }
+                sides[usize::from(!self.is_inside(first))] |= component;
             }
         }
         sides
-    }
-
-    /// The sides of parts, each by itself.
-    #[cold]
-    fn each_side(&self, level: &Level, centre: [f32; 3], mut parts: u64, sides: &mut [u64; 3]) {
-        let reach = level.part_halves.iter().sum::<f32>();
-        while parts != 0 {
-            let bit = parts.trailing_zeros();
-            parts &= parts - 1;
-            let side = self.side(level.part_centre(centre, bit), reach, None);
-            sides[side.map_or(2, |is_inside| usize::from(!is_inside))] |= 1 << bit;
-        }
     }
 }
 
@@ -298,10 +242,6 @@ impl Shape for Inside<'_> {
         self.side = std::array::from_fn(|axis| 2.0 * self.half[axis] / counts[axis] as f64);
         self.gather();
         self.known = vec![[0; 2]; cells];
-        self.caps = self.caps_around([0.0; 3], half_diagonal(self.half.map(|half| 2.0 * half)));
-        if self.caps.is_none() {
-            self.caps_of_cells = vec![None; cells];
-        }
         self.bin(grid);
         let mut voxels = Voxels::default();
         self.flood_cells(grid);
@@ -317,15 +257,7 @@ impl Shape for Inside<'_> {
     }
 
     #[inline(always)]
-    fn parts<L: Lanes>(
-        &mut self,
-        lanes: L,
-        grid: &Grid,
-        level: &Level,
-        voxel: Voxel,
-        open: u64,
-        pass: Pass,
-    ) -> [u64; 2] {
+    fn parts<L: Lanes>(&mut self, lanes: L, grid: &Grid, level: &Level, voxel: Voxel, open: u64) -> [u64; 2] {
         let cell = voxel.cell as usize;
         let (from_cell, in_cell) = (self.cell_centre(grid, cell), VoxelBox::new(level, voxel).centre);
         let centre = [from_cell[0] + in_cell[0], from_cell[1] + in_cell[1], from_cell[2] + in_cell[2]];
@@ -342,25 +274,17 @@ impl Shape for Inside<'_> {
             }
             _ => [0; 2],
         };
-        let mut caps = self.caps_of_cell(grid, cell);
-        if caps.is_none() && !of_cell && pass == Pass::Last {
-            let [x, y, z] = level.halves;
-            caps = self.caps_around(centre, x + y + z);
-        }
-        let asks = pass == Pass::Last || caps.is_some();
-        let [inside, outside, unsure] = self.sides(level, centre, [free, if asks { open } else { 0 }], seeds, caps);
+        let [inside, outside] = self.sides(level, centre, [free, open], seeds);
         if of_cell && is_divided {
             self.known[cell] = [inside, outside];
         }
         let [x, y, z] = level.part_halves;
         let small = 2.0 * x.max(y).max(z) <= self.tolerance;
-        let unsure = if asks { unsure } else { free & !inside & !outside };
-        [inside & open, if small { 0 } else { (cut | unsure) & open }]
+        [inside & open, if small { 0 } else { cut & open }]
     }
 
     fn holds(&self, point: Centre) -> bool {
-        let position = self.lattice.position(point);
-        self.caps.map_or_else(|| self.interior.contains(position), |caps| self.interior.side_among(position, caps))
+        self.interior.contains(self.lattice.position(point))
     }
 }
 
@@ -423,24 +347,12 @@ impl Inside<'_> {
                     }
                 }
             }
-            let decided =
-                self.caps.map(|caps| self.interior.side_among(self.position(self.cell_centre(grid, first)), caps));
+            let is_inside = self.is_inside(self.cell_centre(grid, first));
             for cell in component {
-                let side = decided.or_else(|| {
-                    let caps = self.caps_of_cell(grid, cell)?;
-                    Some(self.interior.side_among(self.position(self.cell_centre(grid, cell)), caps))
-                });
-                if let Some(is_inside) = side {
-                    self.known[cell][usize::from(!is_inside)] = u64::MAX;
-                }
+                self.known[cell][usize::from(!is_inside)] = u64::MAX;
             }
         }
     }
-}
-
-/// Half the diagonal of a box, from its sides.
-fn half_diagonal(sides: [f64; 3]) -> f32 {
-    (0.5 * sides.iter().map(|side| side * side).sum::<f64>().sqrt()) as f32
 }
 
 impl Sides {

@@ -13,12 +13,14 @@ mod body;
 mod fill;
 mod grid;
 mod inside;
+mod inside_options;
 mod obstacles;
 mod ranks;
 mod search;
 mod set;
 mod shape;
 mod solid;
+mod space;
 mod voxels;
 
 use crate::error::{Error, Result};
@@ -33,9 +35,11 @@ use crate::order::{DEFAULT_QUOTIENT, Order, check_quotient};
 use crate::plane::{GivenDisks, Lattice, float_spacing};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius, finest_radius};
 use crate::setters::setters;
-use crate::volume::set::{Sample, Set, Space};
+use crate::volume::set::{Sample, Set};
 use body::Body;
-pub use solid::{InsideOptions, InsideReport, Surface, sample_inside};
+pub use inside_options::{InsideOptions, Surface};
+pub use solid::{InsideReport, sample_inside};
+use space::Space;
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
 /// before they are put to the others, and positions.

@@ -1,20 +1,17 @@
 //! A set of a cuboid, filled block by block.
 
-use std::sync::{Mutex, PoisonError};
-
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::levels::LevelOptions;
-use crate::plane::{GivenDisks, Lattice, Rect};
+use crate::plane::Rect;
 use crate::rng::{Draw, Rng};
-use crate::simd::{self, Level};
+use crate::simd::Level;
 use crate::volume::blocks::{Blocks, REACH};
 use crate::volume::fill::{Fill, Pass};
-use crate::volume::grid::Grid;
-use crate::volume::inside::Solid;
+use crate::volume::grid::Grids;
 use crate::volume::ranks;
 use crate::volume::search::Centre;
-use crate::volume::shape::Whole;
+use crate::volume::space::Space;
 
 /// The samples that one task assigns to blocks, and the share of a level that this takes.
 const SAMPLES_PER_TASK: usize = 1 << 14;
@@ -28,17 +25,6 @@ pub struct Sample {
     pub rank: f32,
 }
 
-/// What is filled.
-#[derive(Clone, Copy)]
-pub struct Space<'a> {
-    /// The cuboid.
-    pub lattice: &'a Lattice<3>,
-    /// The balls that cover parts of it.
-    pub given: &'a GivenDisks<3>,
-    /// The solid in it, if not all of it is filled.
-    pub solid: Option<Solid<'a>>,
-}
-
 /// The samples of a cuboid as lattice points, by their blocks.
 pub struct Set<'a> {
     space: Space<'a>,
@@ -49,8 +35,7 @@ pub struct Set<'a> {
     /// The largest rank, and the ranks of the samples that were added to each block, if they get any.
     largest_rank: Option<f64>,
     ranks: Vec<Vec<f32>>,
-    /// Grids that no thread uses now.
-    grids: Mutex<Vec<Grid>>,
+    grids: Grids,
     level: Level,
 }
 
@@ -93,7 +78,7 @@ impl<'a> Set<'a> {
         let blocks = Blocks::new(space.lattice, seed);
         let count = blocks.leaves.len();
         let (samples, ranks) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        let (known, grids) = (vec![0; count], Mutex::default());
+        let (known, grids) = (vec![0; count], Grids::default());
         Self { space, blocks, samples, known, largest_rank: None, ranks, grids, level }
     }
 
@@ -124,7 +109,7 @@ impl<'a> Set<'a> {
 
     /// The new samples of one pass over a block, which depend only on its place and on the samples around it, and their ranks.
     fn fill_block(&self, block: u32, pass: Pass) -> (Vec<Centre>, Vec<f32>) {
-        let Self { space: Space { lattice, given, solid }, blocks, .. } = self;
+        let Self { space: Space { lattice, given, .. }, blocks, .. } = self;
         let leaf = &blocks.leaves[block as usize];
         let region = blocks.region(lattice, &leaf.rect, pass);
         let mut window = region.grown(lattice.separation.reach + 1);
@@ -132,10 +117,9 @@ impl<'a> Set<'a> {
             window = window.hull(&leaf.rect.grown((REACH * lattice.radius).ceil() as i32 + 1));
         }
         let around = self.around(block, &window);
-        let grids = || self.grids.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut grid = grids().pop().unwrap_or_default();
-        let whole = Fill {
-            shape: Whole,
+        let mut grid = self.grids.take();
+        let fill = Fill {
+            shape: (),
             grid: &mut grid,
             pass,
             block: leaf.rect,
@@ -147,11 +131,8 @@ impl<'a> Set<'a> {
             images: &blocks.images,
             rng: Rng::at(leaf.key, Draw::Volume, &[pass as u64]),
         };
-        let added = match solid {
-            None => simd::run(self.level, whole),
-            Some(solid) => simd::run(self.level, whole.of_shape(solid.within(lattice, region))),
-        };
-        grids().push(grid);
+        let added = self.space.run(self.level, fill);
+        self.grids.give(grid);
         let ranks = self
             .largest_rank
             .map(|largest| ranks::up_to(largest, lattice, &leaf.rect, &around, &added, &blocks.images));
@@ -189,6 +170,7 @@ impl<'a> Set<'a> {
 mod tests {
     use super::*;
     use crate::job::Context;
+    use crate::plane::{GivenDisks, Lattice};
     use crate::points::{Boundary, Domain};
     use crate::volume::search::square;
 

@@ -1,7 +1,6 @@
 //! The shape that is filled: a whole cuboid, or what of it lies inside a mesh (`inside.rs`).
 
 use crate::simd::Lanes;
-use crate::volume::fill::Pass;
 use crate::volume::grid::Grid;
 use crate::volume::search::Centre;
 use crate::volume::voxels::{Level, Voxel};
@@ -43,16 +42,8 @@ pub trait Shape {
     fn cells<L: Lanes>(&mut self, lanes: L, grid: &Grid, open: Vec<Voxel>) -> Voxels;
 
     /// The parts of a cut voxel, of those with a bit in `open`, that lie in the shape, and those that are cut and not too
-    /// small to matter. In the first pass parts may be called cut whose side takes long to find.
-    fn parts<L: Lanes>(
-        &mut self,
-        lanes: L,
-        grid: &Grid,
-        level: &Level,
-        voxel: Voxel,
-        open: u64,
-        pass: Pass,
-    ) -> [u64; 2];
+    /// small to matter.
+    fn parts<L: Lanes>(&mut self, lanes: L, grid: &Grid, level: &Level, voxel: Voxel, open: u64) -> [u64; 2];
 
     /// True if a lattice point of the domain, one of a cut voxel, lies in the shape.
     fn holds(&self, point: Centre) -> bool;
@@ -68,7 +59,7 @@ impl Shape for Whole {
     }
 
     #[inline(always)]
-    fn parts<L: Lanes>(&mut self, _: L, _: &Grid, _: &Level, _: Voxel, open: u64, _: Pass) -> [u64; 2] {
+    fn parts<L: Lanes>(&mut self, _: L, _: &Grid, _: &Level, _: Voxel, open: u64) -> [u64; 2] {
         [open, 0]
     }
 

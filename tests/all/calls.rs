@@ -541,16 +541,17 @@ const VOLUME: &[Call] = &[
     },
     Call {
         name: "volume::sample_inside",
-        reports: 2,
+        reports: 5,
         run: |c, p| {
             samples(volume::sample_inside(
                 c,
-                &MESH,
-                &volume::InsideOptions::new(0.1).surface(volume::Surface::First),
+                &SOLID,
+                &volume::InsideOptions::new(0.03).surface(volume::Surface::First),
                 p,
             ))
         },
         refused: &[
+            ("mesh: ", |c, p| said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(0.1), p))),
             ("radius: ", |c, p| said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(-0.1), p))),
             ("tolerance: ", |c, p| {
                 said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
@@ -558,7 +559,7 @@ const VOLUME: &[Call] = &[
         ],
     },
     Call {
-        name: "interior::contains_each",
+        name: "interior::Interior::contains_each",
         reports: 3,
         run: |c, p| said(Interior::of(&SOLID).contains_each(c, &[[0.1; 3]; 10_000], p)),
         refused: &[("positions: ", |c, p| said(Interior::of(&SOLID).contains_each(c, &[[f32::NAN; 3]], p)))],

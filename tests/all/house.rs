@@ -29,8 +29,6 @@ const IMPORTING: &[(&str, usize)] = &[
     ("psp/fill/uniform.rs", 18),
     ("psp/given.rs", 14),
     ("psp/progressive.rs", 17),
-    ("volume/set.rs", 14),
-    ("volume/solid.rs", 14),
 ];
 
 /// Groups of files in more than one folder that import each other, by their first one.

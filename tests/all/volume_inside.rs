@@ -51,6 +51,26 @@ fn depth(mesh: &Mesh, point: [f64; 3]) -> f64 {
     mesh.triangles().iter().map(|t| distance_from_triangle(point, corners(t))).fold(f64::INFINITY, f64::min)
 }
 
+/// True if most rays in random directions cross an odd number of triangles, by sums of floats.
+fn votes_inside(mesh: &Mesh, point: [f32; 3], random: &mut Random) -> bool {
+    let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross =
+        |a: [f64; 3], b: [f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let point = point.map(f64::from);
+    let crosses = |triangle: &[u32; 3], along: [f64; 3]| {
+        let [a, b, c] = triangle.map(|vertex| minus(mesh.positions()[vertex as usize].map(f64::from), point));
+        let side = |p: [f64; 3], q: [f64; 3]| dot(along, cross(p, q)) > 0.0;
+        let normal = cross(minus(b, a), minus(c, a));
+        side(a, b) == side(b, c) && side(b, c) == side(c, a) && (dot(normal, a) > 0.0) == (dot(normal, along) > 0.0)
+    };
+    let odd = (0..5).filter(|_| {
+        let along = [0; 3].map(|_: i32| f64::from(random.unit()) - 0.5);
+        mesh.triangles().iter().filter(|triangle| crosses(triangle, along)).count() % 2 == 1
+    });
+    odd.count() >= 3
+}
+
 /// Checks a set, and gives the number of random points inside that are covered.
 fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32; 3], f64)]) -> usize {
     let (domain, new) = (space(mesh), &points.positions[report.surface_samples..]);
@@ -59,6 +79,9 @@ fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32;
     let balls: Vec<_> = given.iter().map(|&(centre, clearance)| (centre.map(f64::from), clearance)).collect();
     assert_eq!(sample_in_ball(&domain, &points.positions, &balls), None);
     let (mut random, mut covered) = (Random::new(17), 0);
+    for &sample in new.iter().step_by(1 + new.len() / 100) {
+        assert!(votes_inside(mesh, sample, &mut random), "{sample:?}");
+    }
     let limit = report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0;
     for _ in 0..6_000 {
         let place = [0, 1, 2].map(|k: usize| (domain.min[k] + domain.extent()[k] * f64::from(random.unit())) as f32);
@@ -129,68 +152,49 @@ fn closed_meshes_are_filled() {
         for seed in 0..2 {
             for surface in [Surface::Open, Surface::First] {
                 let (points, report) = made(&mesh, &InsideOptions::new(radius).seed(seed).surface(surface));
-                assert!(report.is_closed && points.len() > 100, "{name}: {}", points.len());
+                assert!(points.len() > 100, "{name}: {}", points.len());
                 assert!(check(&mesh, &points, &report, &[]) > 300, "{name}");
             }
         }
     }
 }
 
+/// Two closed copies of a surface enclose nothing.
 #[test]
-fn open_meshes_are_filled() {
-    let without = |soup: Soup, keep: &dyn Fn([f32; 3]) -> bool| {
-        let (positions, mut triangles) = soup;
-        triangles.retain(|t| t.iter().any(|&vertex| keep(positions[vertex as usize])));
-        (positions, triangles)
-    };
-    let bowl = without(meshes::welded(meshes::sphere()), &|p| p[2] < 0.6);
-    let pierced = without(meshes::welded(meshes::torus()), &|p| p[0] < 1.2 || p[2].abs() > 0.2);
+fn meshes_that_enclose_nothing_stay_empty() {
+    for soup in
+        [meshes::plane(), meshes::sheets(0.2), meshes::book(4), meshes::random_soup(2, 60), meshes::needles(1e-3)]
+    {
+        let doubled = mesh(meshes::join([(soup.0.clone(), soup.1.clone()), soup]));
+        assert!(doubled.is_closed());
+        let (points, report) = made(&doubled, &InsideOptions::new(0.1));
+        assert!(points.is_empty() && report.surface_samples == 0);
+        let error = sample_inside(&Context::new(1).unwrap(), &doubled, &InsideOptions::by_count(5), None).unwrap_err();
+        assert!(matches!(error, Error::InvalidArgument { argument: "count", .. }), "{error}");
+    }
+}
+
+#[test]
+fn meshes_that_are_not_closed_are_refused() {
     let mut box_without_face = cube();
     box_without_face.1.truncate(10);
-    for (name, soup) in [("bowl", bowl), ("pierced", pierced), ("box", box_without_face)] {
+    let (positions, mut triangles) = meshes::welded(meshes::sphere());
+    triangles.remove(triangles.len() / 2);
+    let pierced = (positions, triangles);
+    for (soup, odd) in [(box_without_face, 4), (pierced, 3), (meshes::needles(1e-3), 0)] {
         let mesh = mesh(soup);
-        let (points, report) = made(&mesh, &InsideOptions::new(0.25));
-        assert!(!report.is_closed && points.len() > 50, "{name}: {}", points.len());
-        assert_eq!(points.positions.iter().find(|&&sample| !mesh.contains(sample)), None, "{name}");
-        assert_eq!(conflict(&space(&mesh), report.radius, &points.positions), None, "{name}");
-        // Depth is measured from where the side changes: all places around lie inside.
-        let (mut random, domain, mut open) = (Random::new(3), space(&mesh), 0);
-        for _ in 0..4_000 {
-            let place =
-                [0, 1, 2].map(|k: usize| (domain.min[k] + domain.extent()[k] * f64::from(random.unit())) as f32);
-            let is_covered = |s: &[f32; 3]| distance(&domain, s.map(f64::from), place.map(f64::from)) < 0.2501;
-            if !mesh.contains(place) || points.positions.iter().any(is_covered) {
-                continue;
-            }
-            open += 1;
-            // At holes the side may be taken for uncertain up to .04 of the winding number beyond.
-            let reach = 3.0 * report.depth as f32;
-            let is_at_surface = (0..200).any(|_| {
-                let away = [0; 3].map(|_: i32| 2.0 * random.unit() - 1.0);
-                !mesh.contains([0, 1, 2].map(|k| place[k] + reach * away[k]))
-            });
-            assert!(is_at_surface, "{name}: {place:?} is open");
+        for options in
+            [InsideOptions::new(0.2), InsideOptions::by_count(9), InsideOptions::new(0.2).surface(Surface::First)]
+        {
+            let error = sample_inside(&Context::new(1).unwrap(), &mesh, &options, None).unwrap_err().to_string();
+            let start = "mesh: is not closed: an odd number of triangles shares ";
+            assert!(error.starts_with(start) && (odd == 0 || error.contains(&format!("shares {odd} of"))), "{error}");
         }
-        assert!(open < 40, "{name}: {open}");
     }
-}
-
-#[test]
-fn soups_without_an_inside_do_no_harm() {
-    for soup in [meshes::plane(), meshes::sheets(0.2), meshes::needles(1e-3)] {
-        let mesh = mesh(soup);
-        let (points, report) = made(&mesh, &InsideOptions::new(0.3));
-        check_inside(&mesh, &points, &report);
-        let soup = || (mesh.positions().to_vec(), mesh.triangles().to_vec());
-        let doubled = self::mesh(meshes::join([soup(), soup()]));
-        assert!(doubled.is_closed());
-        assert!(made(&doubled, &InsideOptions::new(0.3)).0.is_empty());
-    }
-}
-
-fn check_inside(mesh: &Mesh, points: &Points<3>, report: &InsideReport) {
-    assert!(points.positions.iter().all(|&sample| mesh.contains(sample)));
-    assert_eq!(conflict(&space(mesh), report.radius, &points.positions), None);
+    // A mask opens a mesh.
+    let (positions, triangles) = cube();
+    let masked = Mesh::new(positions, triangles).unwrap().with_mask((0..12).map(|k| k != 3).collect()).unwrap();
+    assert!(sample_inside(&Context::new(1).unwrap(), &Arc::new(masked), &InsideOptions::new(0.2), None).is_err());
 }
 
 /// The surface comes first, as the sampler of surfaces makes it.

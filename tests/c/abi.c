@@ -137,7 +137,7 @@ FIELD(azulejo_volume_inside_options, given_count, 88);
 
 SIZE(azulejo_volume_inside_report, 56);
 FIELD(azulejo_volume_inside_report, struct_size, 0);
-FIELD(azulejo_volume_inside_report, is_closed, 4);
+FIELD(azulejo_volume_inside_report, reserved, 4);
 FIELD(azulejo_volume_inside_report, samples, 8);
 FIELD(azulejo_volume_inside_report, surface_samples, 16);
 FIELD(azulejo_volume_inside_report, radius, 24);

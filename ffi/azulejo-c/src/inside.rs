@@ -89,8 +89,8 @@ pub unsafe extern "C" fn azulejo_volume_inside_options_init(
 pub struct azulejo_volume_inside_report {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// 1 if the mesh is closed (azulejo_mesh_is_closed), else 0.
-    pub is_closed: u32,
+    /// Always 0.
+    pub reserved: u32,
     /// The number of samples.
     pub samples: u64,
     /// The number of samples of the surface, which come first.
@@ -107,7 +107,7 @@ pub struct azulejo_volume_inside_report {
 }
 
 growing!(azulejo_volume_inside_report requires samples {
-    is_closed: 0, samples: 0, surface_samples: 0, radius: 0.0, covering_radius: 0.0, depth: 0.0, seconds: 0.0,
+    reserved: 0, samples: 0, surface_samples: 0, radius: 0.0, covering_radius: 0.0, depth: 0.0, seconds: 0.0,
 });
 
 /// Writes zeros and the size.
@@ -149,8 +149,8 @@ impl azulejo_volume_inside_options {
     }
 }
 
-/// Makes a maximal, conflict-free set of samples inside a mesh, x y z each: no place inside is
-/// farther from every sample than the radius and 7 float spacings, unless it is nearer to the
+/// Makes a maximal, conflict-free set of samples inside a mesh, which must be closed
+/// (azulejo_mesh_is_closed), x y z each: no place inside is farther from every sample than the radius and 7 float spacings, unless it is nearer to the
 /// surface than the report's `depth`. No sample is outside (azulejo_mesh_contains), except those of
 /// the surface, which azulejo_psp_sample makes with the same radius and seed. The result has
 /// positions only. Count, order and given samples are as in azulejo_volume_sample.
@@ -176,12 +176,10 @@ pub unsafe extern "C" fn azulejo_volume_sample_inside(
         // SAFETY: handed on from the caller.
         let request = unsafe { options.request() }?;
         let watch = Watch::new(options.progress, options.progress_user);
-        let sample =
-            |context: &_, progress: Option<&_>| volume::sample_inside(context, &mesh.shared, &request, progress);
-        let (samples, made) = context.run(watch, sample)?;
+        let (samples, made) =
+            context.run(watch, |context, progress| volume::sample_inside(context, &mesh.shared, &request, progress))?;
         if let Some(report) = report {
             report.write(azulejo_volume_inside_report {
-                is_closed: made.is_closed.into(),
                 samples: samples.len() as u64,
                 surface_samples: made.surface_samples as u64,
                 radius: made.radius,

@@ -333,10 +333,20 @@ fn surfaces() {
         assert_eq!((status, inside[1]), (AZULEJO_OK, 0));
         let mut options = defaults(azulejo_volume_inside_options_init);
         let mut report = defaults(azulejo_volume_inside_report_init);
-        (options.radius, options.surface) = (0.9, AZULEJO_SURFACE_FIRST);
-        let (handle, mesh) = (context.get(), mesh.get());
-        read_and_free(made(|out| azulejo_volume_sample_inside(handle, mesh, &options, out, &raw mut report)));
-        assert!(report.depth > 0.0 && report.samples >= report.surface_samples);
+        (options.radius, options.surface) = (0.4, AZULEJO_SURFACE_FIRST);
+        let (handle, open) = (context.get(), mesh.get());
+        let refused =
+            azulejo_volume_sample_inside(handle, open, &options, &mut std::ptr::null_mut(), std::ptr::null_mut());
+        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
+        let corners = [[0.0f32, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
+        let faces = [[0u32, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let solid = made(|out| azulejo_mesh_create(corners.as_ptr().cast(), 4, 12, faces.as_ptr().cast(), 4, out));
+        assert_eq!(solid.read(azulejo_mesh_is_closed), 1);
+        let count = read_and_free(made(|out| {
+            azulejo_volume_sample_inside(handle, solid.get(), &options, out, &raw mut report)
+        }));
+        assert!(report.depth > 0.0 && report.samples > report.surface_samples && report.surface_samples > 10);
+        assert_eq!(report.samples, count as u64);
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);
