@@ -2116,6 +2116,17 @@ inline Status try_mesh_coverage(const Context &context, const Mesh &mesh,
     });
 }
 
+/// Whether each point is inside a mesh, 1 or 0; see azulejo_mesh_contains.
+inline Status try_mesh_contains(const Context &context, const Mesh &mesh,
+                                const SpacePoints &positions, std::vector<std::uint8_t> &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    std::vector<std::uint8_t> inside(positions.size());
+    Status status(azulejo_mesh_contains(context.get(), mesh.get(), positions.data(), inside.size(),
+                                        inside.data()));
+    if (status.ok()) out = std::move(inside);
+    return status;
+}
+
 /// The power spectrum of a set of the plane, or the mean of several; see azulejo_spectrum.
 class Spectrum : public Owner<azulejo_spectrum, azulejo_spectrum_free> {
 public:
@@ -2519,6 +2530,13 @@ inline CoverageReport mesh_coverage(const Context &context, const Mesh &mesh,
     CoverageReport coverage;
     check(try_mesh_coverage(context, mesh, positions, radius, coverage));
     return coverage;
+}
+
+inline std::vector<std::uint8_t> mesh_contains(const Context &context, const Mesh &mesh,
+                                               const SpacePoints &positions) {
+    std::vector<std::uint8_t> inside;
+    check(try_mesh_contains(context, mesh, positions, inside));
+    return inside;
 }
 
 #endif // AZULEJO_NO_EXCEPTIONS
