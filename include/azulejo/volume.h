@@ -112,7 +112,7 @@ typedef struct azulejo_volume_inside_options {
 /// The report of azulejo_volume_sample_inside.
 typedef struct azulejo_volume_inside_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
-    uint32_t is_closed; ///< 1 if the mesh is closed (azulejo_mesh_is_closed), else 0.
+    uint32_t reserved; ///< Always 0.
     uint64_t samples; ///< The number of samples.
     uint64_t surface_samples; ///< The number of samples of the surface, which come first.
     double radius; ///< No two samples are nearer: the radius, also that of the set of a count.
@@ -131,11 +131,12 @@ azulejo_status azulejo_volume_inside_options_init(azulejo_volume_inside_options 
 azulejo_status azulejo_volume_inside_report_init(azulejo_volume_inside_report *report,
                                                  size_t struct_size);
 
-/// Makes a maximal, conflict-free set of samples inside a mesh, x y z each: no place inside is
-/// farther from every sample than the radius and 7 float spacings, unless it is nearer to the
-/// surface than the report's `depth`. No sample is outside (azulejo_mesh_contains), except those of
-/// the surface, which azulejo_psp_sample makes with the same radius and seed. The result has
-/// positions only. Count, order and given samples are as in azulejo_volume_sample.
+/// Makes a maximal, conflict-free set of samples inside a mesh, which must be closed
+/// (azulejo_mesh_is_closed), x y z each: no place inside is farther from every sample than the
+/// radius and 7 float spacings, unless it is nearer to the surface than the report's `depth`. No
+/// sample is outside (azulejo_mesh_contains), except those of the surface, which
+/// azulejo_psp_sample makes with the same radius and seed. The result has positions only. Count,
+/// order and given samples are as in azulejo_volume_sample.
 /// - O(samples) time and memory. What is made of the mesh, O(triangles * log triangles) the first
 ///   time, is kept with it.
 azulejo_status azulejo_volume_sample_inside(const azulejo_context *context,

@@ -150,10 +150,11 @@ impl azulejo_volume_inside_options {
 }
 
 /// Makes a maximal, conflict-free set of samples inside a mesh, which must be closed
-/// (azulejo_mesh_is_closed), x y z each: no place inside is farther from every sample than the radius and 7 float spacings, unless it is nearer to the
-/// surface than the report's `depth`. No sample is outside (azulejo_mesh_contains), except those of
-/// the surface, which azulejo_psp_sample makes with the same radius and seed. The result has
-/// positions only. Count, order and given samples are as in azulejo_volume_sample.
+/// (azulejo_mesh_is_closed), x y z each: no place inside is farther from every sample than the
+/// radius and 7 float spacings, unless it is nearer to the surface than the report's `depth`. No
+/// sample is outside (azulejo_mesh_contains), except those of the surface, which
+/// azulejo_psp_sample makes with the same radius and seed. The result has positions only. Count,
+/// order and given samples are as in azulejo_volume_sample.
 ///
 /// O(samples) time and memory. What is made of the mesh, O(triangles * log triangles) the first
 /// time, is kept with it.
