@@ -1,7 +1,8 @@
 //! What of a block lies inside a mesh.
 //!
 //! A voxel is *cut* if a triangle meets it, tested by separating axes (Schwarz and Seidel 2010, "Fast parallel surface and solid
-//! voxelization on GPUs", section 3, by intervals instead of edge functions). Voxels that are not cut and share faces lie on one
+//! voxelization on GPUs", section 3, by intervals instead of edge functions). Where cut voxels are divided, box and plane of a triangle
+//! are enough. Each triangle of a cell knows the parts of the cell that it is near to. Voxels that are not cut and share faces lie on one
 //! side of the surface: cells are flooded, then the parts of each cut cell, beginning at neighbours whose side is known, and one
 //! question to the mesh (`interior/`), which is closed, decides for all that a flood reaches.
 //!
@@ -28,6 +29,9 @@ const ERROR: f64 = 1e-5;
 /// Triangles with less area than this share of the product of two edges have a plane that is no use; their edges say all.
 const FLAT: f64 = 1e-7;
 
+/// Voxels with sides below this, in lattice units, are the last: a little more than where the levels end.
+const LAST: f64 = 1.01;
+
 /// The faces of a voxel in bits of its parts: those at its lower and upper end along each axis.
 const FACES: [[u64; 2]; 3] = [
     [0x1111_1111_1111_1111, 0x8888_8888_8888_8888],
@@ -46,12 +50,20 @@ struct Axis {
     high: f32,
 }
 
-/// A triangle by its intervals.
-struct Sides {
+/// A triangle, in radii from the region's centre.
+struct Triangle {
+    corners: [[f32; 3]; 3],
     low: [f32; 3],
     high: [f32; 3],
-    /// The normal, and the normals of the edges in planes of two axes of space.
-    axes: [Axis; 10],
+    /// Of a triangle with a plane.
+    normal: Axis,
+}
+
+/// A triangle of a cell: its number, and the parts of the cell that it is near to.
+#[derive(Clone, Copy, Default)]
+struct Met {
+    triangle: u32,
+    parts: u64,
 }
 
 /// The inside of a mesh.
@@ -94,9 +106,9 @@ pub struct Inside<'a> {
     side: [f64; 3],
     /// In radii, by which voxels are wider on all sides.
     margin: f32,
-    triangles: Vec<Sides>,
+    triangles: Vec<Triangle>,
     /// The triangles that meet each cell.
-    met: Binned<u32>,
+    met: Binned<Met>,
     /// The parts of each cell that are known to lie inside, and outside.
     known: Vec<[u64; 2]>,
 }
@@ -115,7 +127,7 @@ impl Inside<'_> {
         let triangles = &mut self.triangles;
         self.interior.for_each_near([low, high], |corners| {
             let local = corners.map(|corner| std::array::from_fn(|k| (f64::from(corner[k]) - centre[k]) * per_radius));
-            triangles.push(Sides::new(&local));
+            triangles.push(Triangle::new(&local));
         });
     }
 
@@ -139,39 +151,51 @@ impl Inside<'_> {
         })))
     }
 
-    /// The parts of a voxel, `centre` from the region's, that triangles meet, of those in `wanted`.
+    /// Finds the parts of a cell that each of its triangles may meet.
     #[inline(always)]
-    fn met_parts<L: Lanes>(&self, lanes: L, level: &Level, cell: usize, centre: [f32; 3], wanted: u64) -> u64 {
-        let ([x, y, z], margin) = (level.part_halves, self.margin);
-        let halves = [x + margin, y + margin, z + margin];
-        let columns = [
-            lanes.add(lanes.splat(centre[0]), lanes.load(&level.columns[0])),
-            lanes.add(lanes.splat(centre[1]), lanes.load(&level.columns[1])),
-        ];
-        let (mut cut, met, mut index) = (0u64, self.met.bin(cell), 0);
+    fn find_parts<L: Lanes>(&mut self, lanes: L, parts: &Parts<L>, cell: usize) {
+        let Self { triangles, met, .. } = self;
+        let (met, mut index) = (met.bin_mut(cell), 0);
         while index < met.len() {
-            let number = met[index];
+            let triangle = &triangles[met[index].triangle as usize];
+            met[index].parts = parts.near(lanes, triangle, u64::MAX);
             index += 1;
-            let triangle = &self.triangles[number as usize];
-            let mut parts = wanted & !cut & triangle.box_parts(level, centre, halves);
-            let mut number = 0;
-            while number < triangle.axes.len() && parts != 0 {
-                let axis = &triangle.axes[number];
-                number += 1;
-                let [x, y, z] = axis.along;
-                let radius = x.abs() * halves[0] + y.abs() * halves[1] + z.abs() * halves[2];
-                let sums = lanes.add(lanes.mul(columns[0], lanes.splat(x)), lanes.mul(columns[1], lanes.splat(y)));
-                let mut layer = 0;
-                while layer < level.layers.len() {
-                    let along = z * (centre[2] + level.layers[layer]);
-                    let (from, to) = (axis.low - radius - along, axis.high + radius - along);
-                    let apart =
-                        lanes.bits(lanes.less(sums, lanes.splat(from))) | lanes.bits(lanes.less(lanes.splat(to), sums));
-                    parts &= !(u64::from(apart) << (16 * layer));
-                    layer += 1;
-                }
+        }
+    }
+
+    /// The parts of a voxel that boxes and planes of triangles meet. The voxel belongs to this part of its cell.
+    #[inline(always)]
+    fn near_parts<L: Lanes>(&self, lanes: L, parts: &Parts<L>, cell: usize, part: Option<u32>) -> u64 {
+        let (mut near, met, mut index) = (0, self.met.bin(cell), 0);
+        while index < met.len() {
+            let Met { triangle, parts: of_cell } = met[index];
+            index += 1;
+            match part {
+                None if parts.level.all == u64::MAX => near |= of_cell,
+                Some(part) if of_cell >> part & 1 == 0 => (),
+                _ => near |= parts.near(lanes, &self.triangles[triangle as usize], parts.level.all & !near),
             }
-            cut |= parts;
+        }
+        near
+    }
+
+    /// The parts of a voxel, of those in `wanted`, that triangles meet.
+    #[inline(always)]
+    fn met_parts<L: Lanes>(&self, lanes: L, parts: &Parts<L>, cell: usize, part: Option<u32>, wanted: u64) -> u64 {
+        let (mut cut, met, mut index) = (0, self.met.bin(cell), 0);
+        while index < met.len() && cut != wanted {
+            let Met { triangle, parts: of_cell } = met[index];
+            index += 1;
+            if part.is_none_or(|part| of_cell >> part & 1 == 1) {
+                let triangle = &self.triangles[triangle as usize];
+                let mut meets = parts.near(lanes, triangle, wanted & !cut);
+                let mut number = 0;
+                while number < 9 && meets != 0 {
+                    meets &= !parts.apart(lanes, &triangle.across_edge(number / 3, number % 3));
+                    number += 1;
+                }
+                cut |= meets;
+            }
         }
         cut
     }
@@ -261,10 +285,22 @@ impl Shape for Inside<'_> {
         let cell = voxel.cell as usize;
         let (from_cell, in_cell) = (self.cell_centre(grid, cell), VoxelBox::new(level, voxel).centre);
         let centre = [from_cell[0] + in_cell[0], from_cell[1] + in_cell[1], from_cell[2] + in_cell[2]];
-        let cut = self.met_parts(lanes, level, cell, centre, level.all);
-        let free = level.all & !cut;
         let of_cell = level.counts == [1; 3];
         let is_divided = level.all == u64::MAX;
+        let parts = Parts::new(lanes, level, centre, self.margin);
+        if of_cell && is_divided {
+            self.find_parts(lanes, &parts, cell);
+        }
+        let part = part_of_cell(level, voxel);
+        let mut cut = self.near_parts(lanes, &parts, cell, part);
+        let [x, y, z] = level.part_halves;
+        let side = 2.0 * x.max(y).max(z);
+        let small = side <= self.tolerance;
+        // What is not divided any more is dropped: only where a triangle meets it.
+        if small || f64::from(side) * self.lattice.radius < LAST {
+            cut = cut & !open | self.met_parts(lanes, &parts, cell, part, cut & open);
+        }
+        let free = level.all & !cut;
         let seeds = match level.counts {
             _ if !is_divided => [0; 2],
             [1, 1, 1] => self.known_around(grid, cell, None),
@@ -278,8 +314,6 @@ impl Shape for Inside<'_> {
         if of_cell && is_divided {
             self.known[cell] = [inside, outside];
         }
-        let [x, y, z] = level.part_halves;
-        let small = 2.0 * x.max(y).max(z) <= self.tolerance;
         [inside & open, if small { 0 } else { cut & open }]
     }
 
@@ -312,8 +346,8 @@ impl Inside<'_> {
             for (z, y) in layers.flat_map(|z| rows.clone().map(move |y| (z, y))) {
                 for x in columns.clone() {
                     let cell = (z * counts[1] + y) * counts[0] + x;
-                    if is_alone || triangle.meets(self.cell_centre(grid, cell), halves) {
-                        met.push((cell, number));
+                    if is_alone || triangle.is_near(self.cell_centre(grid, cell), halves) {
+                        met.push((cell, Met { triangle: number, parts: u64::MAX }));
                     }
                 }
             }
@@ -355,62 +389,91 @@ impl Inside<'_> {
     }
 }
 
-impl Sides {
+impl Triangle {
     /// A triangle by its corners, in radii from the region's centre.
     fn new(corners: &[[f64; 3]; 3]) -> Self {
         let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| a[k] - b[k]) };
+        let square = |v: [f64; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         let [a, b, c] = *corners;
-        let edges = [minus(b, a), minus(c, b), minus(a, c)];
-        let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-        let [u, v] = [edges[0], edges[2]];
-        let normal = [u[2] * v[1] - u[1] * v[2], u[0] * v[2] - u[2] * v[0], u[1] * v[0] - u[0] * v[1]];
-        let mut axes = [Axis::default(); 10];
-        let axis = |along: [f64; 3], size: f64| {
-            if size == 0.0 {
-                return Axis::default();
-            }
-            let along = along.map(|x| x / size);
-            let places = corners.map(|p| p[0] * along[0] + p[1] * along[1] + p[2] * along[2]);
-            let [low, high] = [f64::min, f64::max].map(|pick| pick(places[0], pick(places[1], places[2])) as f32);
-            Axis { along: along.map(|x| x as f32), low, high }
+        let (u, v) = (minus(b, a), minus(c, a));
+        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let area = square(normal);
+        let mut triangle = Self {
+            corners: corners.map(|corner| corner.map(|x| x as f32)),
+            low: std::array::from_fn(|k| a[k].min(b[k]).min(c[k]) as f32),
+            high: std::array::from_fn(|k| a[k].max(b[k]).max(c[k]) as f32),
+            normal: Axis::default(),
         };
-        let area = length(normal);
-        if area > FLAT * length(u) * length(v) {
-            axes[0] = axis(normal, area);
+        if area > FLAT * FLAT * square(u) * square(v) {
+            let length = area.sqrt();
+            triangle.normal = triangle.axis(normal.map(|x| (x / length) as f32));
         }
-        for (edge, axes) in edges.iter().zip(axes[1..].chunks_mut(3)) {
-            for (k, slot) in axes.iter_mut().enumerate() {
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                let mut along = [0.0; 3];
-                (along[i], along[j]) = (-edge[j], edge[i]);
-                *slot = axis(along, length(along));
-            }
-        }
-        let of = |pick: fn(f64, f64) -> f64| std::array::from_fn(|k| pick(a[k], pick(b[k], c[k])) as f32);
-        Self { low: of(f64::min), high: of(f64::max), axes }
+        triangle
     }
 
-    /// True if a box may meet the triangle.
-    fn meets(&self, centre: [f32; 3], halves: [f32; 3]) -> bool {
-        let meets = |axis: &Axis| {
-            let along = (0..3).map(|k| axis.along[k] * centre[k]).sum::<f32>();
-            let radius = (0..3).map(|k| axis.along[k].abs() * halves[k]).sum::<f32>();
-            axis.low <= along + radius && along - radius <= axis.high
-        };
-        (0..3).all(|k| self.low[k] <= centre[k] + halves[k] && centre[k] - halves[k] <= self.high[k])
-            && self.axes.iter().all(meets)
-    }
-
-    /// The parts of a voxel that the box around the triangle meets.
+    /// Its interval along a direction.
     #[inline(always)]
-    fn box_parts(&self, level: &Level, centre: [f32; 3], halves: [f32; 3]) -> u64 {
-        let (mut parts, mut axis) = (u64::MAX, 0);
+    fn axis(&self, along: [f32; 3]) -> Axis {
+        let place = |p: [f32; 3]| p[0] * along[0] + p[1] * along[1] + p[2] * along[2];
+        let [a, b, c] = [place(self.corners[0]), place(self.corners[1]), place(self.corners[2])];
+        Axis { along, low: a.min(b).min(c), high: a.max(b).max(c) }
+    }
+
+    /// Its interval along the normal of an edge in the plane across an axis of space.
+    #[inline(always)]
+    fn across_edge(&self, edge: usize, axis: usize) -> Axis {
+        let (from, to) = (self.corners[edge], self.corners[(edge + 1) % 3]);
+        let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut along = [0.0; 3];
+        (along[i], along[j]) = (from[j] - to[j], to[i] - from[i]);
+        self.axis(along)
+    }
+
+    /// True if a box may meet the triangle: its box and plane do.
+    fn is_near(&self, centre: [f32; 3], halves: [f32; 3]) -> bool {
+        let Axis { along: [x, y, z], low, high } = self.normal;
+        let along = x * centre[0] + y * centre[1] + z * centre[2];
+        let radius = x.abs() * halves[0] + y.abs() * halves[1] + z.abs() * halves[2];
+        (0..3).all(|k| self.low[k] <= centre[k] + halves[k] && centre[k] - halves[k] <= self.high[k])
+            && low <= along + radius
+            && along - radius <= high
+    }
+}
+
+/// The parts of a voxel, for tests of all of them at once.
+struct Parts<'a, L: Lanes> {
+    level: &'a Level,
+    /// The vector from the region's centre to the voxel's, in radii.
+    centre: [f32; 3],
+    /// Half the sides of a part with the margin.
+    halves: [f32; 3],
+    /// The centres of a layer of parts along x and y.
+    columns: [L::Floats; 2],
+}
+
+impl<'a, L: Lanes> Parts<'a, L> {
+    #[inline(always)]
+    fn new(lanes: L, level: &'a Level, centre: [f32; 3], margin: f32) -> Self {
+        let [x, y, z] = level.part_halves;
+        let columns = [
+            lanes.add(lanes.splat(centre[0]), lanes.load(&level.columns[0])),
+            lanes.add(lanes.splat(centre[1]), lanes.load(&level.columns[1])),
+        ];
+        Self { level, centre, halves: [x + margin, y + margin, z + margin], columns }
+    }
+
+    /// Those of some that the box of a triangle and its plane meet.
+    #[inline(always)]
+    fn near(&self, lanes: L, triangle: &Triangle, among: u64) -> u64 {
+        let (mut parts, mut axis) = (among, 0);
         while axis < 3 {
-            let (low, high) =
-                (self.low[axis] - halves[axis] - centre[axis], self.high[axis] + halves[axis] - centre[axis]);
+            let (low, high) = (
+                triangle.low[axis] - self.halves[axis] - self.centre[axis],
+                triangle.high[axis] + self.halves[axis] - self.centre[axis],
+            );
             let (mut met, mut number) = (0, 0);
             while number < 4 {
-                let place = level.offset(axis, number);
+                let place = self.level.offset(axis, number);
                 // All parts with this number along the axis.
                 let slice = FACES[axis][0] << (number as u32 * STEPS[axis]);
                 met |= if low <= place && place <= high { slice } else { 0 };
@@ -419,8 +482,32 @@ impl Sides {
             parts &= met;
             axis += 1;
         }
+        if parts == 0 { 0 } else { parts & !self.apart(lanes, &triangle.normal) }
+    }
+
+    /// Those that a direction separates from a triangle.
+    #[inline(always)]
+    fn apart(&self, lanes: L, axis: &Axis) -> u64 {
+        let [x, y, z] = axis.along;
+        let radius = x.abs() * self.halves[0] + y.abs() * self.halves[1] + z.abs() * self.halves[2];
+        let sums = lanes.add(lanes.mul(self.columns[0], lanes.splat(x)), lanes.mul(self.columns[1], lanes.splat(y)));
+        let (mut parts, mut layer) = (0, 0);
+        while layer < self.level.layers.len() {
+            let along = z * (self.centre[2] + self.level.layers[layer]);
+            let (from, to) = (axis.low - radius - along, axis.high + radius - along);
+            let apart = lanes.bits(lanes.less(sums, lanes.splat(from))) | lanes.bits(lanes.less(lanes.splat(to), sums));
+            parts |= u64::from(apart) << (16 * layer);
+            layer += 1;
+        }
         parts
     }
+}
+
+/// The part of its cell that a voxel belongs to; none of a whole cell, or if cells do not have 64 parts.
+#[inline(always)]
+fn part_of_cell(level: &Level, voxel: Voxel) -> Option<u32> {
+    let number = |axis: usize| u32::from(voxel.numbers[axis]) * 4 / level.counts[axis];
+    (level.counts.iter().all(|&count| count >= 4)).then(|| number(0) + 4 * number(1) + 16 * number(2))
 }
 
 /// The parts that are connected with those of `from` by faces, through those of `free`.
