@@ -45,11 +45,11 @@ pub fn side_of_plane(point: Point, corners: &[Point; 3]) -> i32 {
     };
     let (u, v, w) = (from_a(b), from_a(c), from_a(&point));
     let (mut volume, mut size) = (0.0, 0.0);
-    for k in 0..3 {
+    for (k, along) in w.into_iter().enumerate() {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let (left, right) = (u[i] * v[j], u[j] * v[i]);
-        volume += (left - right) * w[k];
-        size += (left.abs() + right.abs()) * w[k].abs();
+        volume += (left - right) * along;
+        size += (left.abs() + right.abs()) * along.abs();
     }
     if volume.abs() > ERROR_3D * size {
         return sign(volume);

@@ -206,8 +206,8 @@ impl Inside<'_> {
         let strides = [1, counts[0], counts[0] * counts[1]];
         let mut seeds = [0; 2];
         for axis in 0..3 {
-            for end in 0..2 {
-                let at_face = part.is_none_or(|part| FACES[axis][end] >> part & 1 == 1);
+            for (end, face) in FACES[axis].into_iter().enumerate() {
+                let at_face = part.is_none_or(|part| face >> part & 1 == 1);
                 let neighbour = if !at_face {
                     cell
                 } else if end == 0 {
@@ -230,7 +230,7 @@ impl Inside<'_> {
                         Some(part) => {
                             let step = if at_face { 3 * STEPS[axis] } else { STEPS[axis] };
                             let next = if (end == 0) == at_face { part + step } else { part - step };
-                            if known[side] >> next & 1 == 1 { FACES[axis][end] } else { 0 }
+                            if known[side] >> next & 1 == 1 { face } else { 0 }
                         }
                     };
                 }

@@ -340,7 +340,7 @@ fn the_constants_of_the_core_are_those_of_the_page() {
         assert_eq!(row.range, format!("{} to {}", kdrt::QUOTIENTS.start(), kdrt::QUOTIENTS.end()));
         assert!(row.default == "2^(1/8)" && (kdrt::DEFAULT_QUOTIENT - 2_f64.sqrt().sqrt().sqrt()).abs() < 1e-15);
     }
-    assert_eq!((of("leaf_size").len(), of("quotient").len()), (1, 4));
+    assert_eq!((of("leaf_size").len(), of("quotient").len()), (1, 5));
 }
 
 #[test]
