@@ -150,7 +150,7 @@ const SOLID: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 1 4
 #[test]
 fn volume_fills_the_inside_of_a_mesh() {
     let workshop = Workshop::new();
-    workshop.write("solid.obj", &format!("{SOLID}f 2 3 4\n"));
+    workshop.write("solid.obj", format!("{SOLID}f 2 3 4\n"));
     let mesh = Arc::new(Mesh::load(workshop.path("solid.obj")).unwrap());
     let free = InsideOptions::new(0.2).seed(3);
     for (arguments, options) in [
