@@ -40,6 +40,8 @@
  *   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax
  *   a mesh whose vertices are the samples         azulejo_dcr_remesh
  *   samples of a cuboid                           azulejo_volume_sample
+ *   samples inside a mesh                         azulejo_volume_sample_inside
+ *   which points are inside a mesh                azulejo_mesh_contains
  *   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_mesh_coverage,
  *                                                 azulejo_spectrum_create
  *   a blue-noise mask, to dither or per pixel     azulejo_mask_create

@@ -856,6 +856,9 @@ using DcrSurfaceOptions = Options<azulejo_dcr_surface_options, azulejo_dcr_surfa
 /// See azulejo_volume_options; `radius` or `count` is to be set.
 using VolumeOptions =
     GivenOptions<Options<azulejo_volume_options, azulejo_volume_options_init>, 3>;
+/// See azulejo_volume_inside_options; `radius` or `count` is to be set.
+using VolumeInsideOptions =
+    GivenOptions<Options<azulejo_volume_inside_options, azulejo_volume_inside_options_init>, 3>;
 /// See azulejo_mask_options; `width` and `height` have no defaults.
 using MaskOptions = Options<azulejo_mask_options, azulejo_mask_options_init>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
@@ -990,6 +993,8 @@ struct Report : C {
 using KdrtReport = Report<azulejo_kdrt_report, azulejo_kdrt_report_init>;
 using ClassesReport = Report<azulejo_classes_report, azulejo_classes_report_init>;
 using VolumeReport = Report<azulejo_volume_report, azulejo_volume_report_init>;
+using VolumeInsideReport =
+    Report<azulejo_volume_inside_report, azulejo_volume_inside_report_init>;
 using MaskReport = Report<azulejo_mask_report, azulejo_mask_report_init>;
 using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
@@ -1309,6 +1314,8 @@ public:
 
     /// The area of all triangles that no mask leaves out; see azulejo_mesh_area.
     double area() const noexcept { return azulejo_mesh_area(get()); }
+    /// See azulejo_mesh_is_closed.
+    bool is_closed() const noexcept { return azulejo_mesh_is_closed(get()) != 0; }
 };
 
 // ---- Regions -----------------------------------------------------------------------------------
@@ -1809,6 +1816,15 @@ inline Status try_volume_sample(const Context &context, const VolumeOptions &opt
     });
 }
 
+/// A maximal set of samples inside a mesh; see azulejo_volume_sample_inside.
+inline Status try_volume_sample_inside(const Context &context, const Mesh &mesh,
+                                       const VolumeInsideOptions &options, Points &out,
+                                       VolumeInsideReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_volume_sample_inside(context.get(), mesh.get(), &options, points, report);
+    });
+}
+
 /// Samples of a mesh in one call; see azulejo_psp_sample.
 inline Status try_psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
                              Points &out, PspReport *report = nullptr) {
@@ -2163,6 +2179,17 @@ inline Status try_mesh_coverage(const Context &context, const Mesh &mesh,
     });
 }
 
+/// Whether each point is inside a mesh, 1 or 0; see azulejo_mesh_contains.
+inline Status try_mesh_contains(const Context &context, const Mesh &mesh,
+                                const SpacePoints &positions, std::vector<std::uint8_t> &out) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    std::vector<std::uint8_t> inside(positions.size());
+    Status status(azulejo_mesh_contains(context.get(), mesh.get(), positions.data(), inside.size(),
+                                        inside.data()));
+    if (status.ok()) out = std::move(inside);
+    return status;
+}
+
 /// The power spectrum of a set of the plane, or the mean of several; see azulejo_spectrum.
 class Spectrum : public Owner<azulejo_spectrum, azulejo_spectrum_free> {
 public:
@@ -2394,6 +2421,14 @@ inline Points volume_sample(const Context &context, const VolumeOptions &options
     return points;
 }
 
+inline Points volume_sample_inside(const Context &context, const Mesh &mesh,
+                                   const VolumeInsideOptions &options,
+                                   VolumeInsideReport *report = nullptr) {
+    Points points;
+    check(try_volume_sample_inside(context, mesh, options, points, report));
+    return points;
+}
+
 inline Points psp_sample_region(const Context &context, const Mesh &mesh,
                                 const PspOptions &options, const Region &region,
                                 PspReport *report = nullptr) {
@@ -2565,6 +2600,13 @@ inline CoverageReport mesh_coverage(const Context &context, const Mesh &mesh,
     CoverageReport coverage;
     check(try_mesh_coverage(context, mesh, positions, radius, coverage));
     return coverage;
+}
+
+inline std::vector<std::uint8_t> mesh_contains(const Context &context, const Mesh &mesh,
+                                               const SpacePoints &positions) {
+    std::vector<std::uint8_t> inside;
+    check(try_mesh_contains(context, mesh, positions, inside));
+    return inside;
 }
 
 #endif // AZULEJO_NO_EXCEPTIONS

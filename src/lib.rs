@@ -6,7 +6,7 @@
 //! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
 //! | [`dcr`] | a point set, in the plane or on a mesh, relaxed by distance constraints | thesis ch. 4 |
 //! | [`mod@thin`] | some points of a cloud, far from each other and near to all the others | Gonzalez 1985 |
-//! | [`volume`] | maximal Poisson-disk sets of cuboids | Ebeida et al. 2012 |
+//! | [`volume`] | maximal Poisson-disk sets of cuboids and of the inside of meshes | Ebeida et al. 2012 |
 //! | [`mask`] | blue-noise masks: images of ranks, for dithering and for a sample per pixel | Ulichney 1993 |
 //! | [`maximal`] | the unbiased set that the others are measured by | Ebeida et al. 2012 |
 //! | [`analysis`] | spacing, coverage, spectra, distances, triangles and bond order of any set | |
@@ -53,6 +53,7 @@ mod geometry;
 mod given;
 mod host;
 mod index;
+mod interior;
 mod job;
 pub mod kdrt;
 mod kept;
@@ -81,6 +82,7 @@ pub use classes::Classes;
 pub use editable::EditableSet;
 pub use error::{Error, Result};
 pub use given::Given;
+pub use interior::Interior;
 pub use job::{Context, Progress};
 pub use order::Order;
 pub use points::{Boundary, Domain, MAXIMAL_DENSITY, MAXIMAL_DENSITY_IN_SPACE, Points};

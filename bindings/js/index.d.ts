@@ -331,6 +331,35 @@ export function volumeSample(options: VolumeOptions): {
     coveringRadius: number;
 };
 
+export interface VolumeInsideOptions extends Given, Ordering {
+    /** The smallest distance of two samples, in the units of the mesh. Required, unless there is a count. */
+    radius?: number;
+    /** The exact number of samples; 0, the default: as many as the radius gives. Given samples then need clearances. */
+    count?: number;
+    /** `open`, the default: samples lie anywhere inside. `first`: a maximal set of the surface comes first. */
+    surface?: "open" | "first";
+    /** Places may stay open nearer to the surface than sqrt(3) times this many radii: 1/256 to 1/2; default 0.0625. */
+    tolerance?: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/** A maximal Poisson-disk set of the inside of a mesh, of which an even number of triangles share each edge. */
+export function volumeSampleInside(mesh: Mesh, options: VolumeInsideOptions): {
+    /** x y z of each sample. */
+    positions: Float32Array;
+    /** As those of PlaneSamples. */
+    ranks?: Float32Array;
+    /** The radius, that of the options or the one found for the count. */
+    radius: number;
+    /** A bound of the distance of any place that is deeper than `depth` from the samples. */
+    coveringRadius: number;
+    /** The greatest distance from the surface at which places can be open. */
+    depth: number;
+    /** The number of samples of the surface, which come first. */
+    surfaceSamples: number;
+};
+
 export interface RelaxOptions extends Domain {
     /** `delaunay`, the default: neighbours keep their distance and close holes. `nearest`: they only repel. */
     neighbourhood?: "delaunay" | "nearest";

@@ -22,6 +22,7 @@ export async function init(source = new URL("azulejo.wasm", import.meta.url)) {
 
 const BOUNDED = { periodic: 0, bounded: 1 };
 const ORDERS = { any: 0, progressive: 1 };
+const SURFACES = { open: 0, first: 1 };
 const NEIGHBOURHOODS = { delaunay: 0, nearest: 1 };
 const STOPPED = ["converged", "steps", "cancelled"];
 const DEFAULT_QUOTIENT = 2 ** (1 / 8);
@@ -46,6 +47,10 @@ const REGION = { centre: null, radius: null, min: null, max: null };
 const VOLUME = {
     radius: 0, count: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic", seed: 0, order: "any",
     quotient: DEFAULT_QUOTIENT, givenPositions: null, givenClearances: null,
+};
+const INSIDE = {
+    radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT,
+    givenPositions: null, givenClearances: null,
 };
 const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
@@ -329,6 +334,23 @@ export function volumeSample(options) {
         const args = [place, seedOf(options), ...given(call, options, 3)];
         const [positions, ranks, [found, coveringRadius]] = call.make("volume_sample", args, ...types);
         return withRanks({ positions, radius: found, coveringRadius }, ranks);
+    });
+}
+
+export function volumeSampleInside(mesh, options) {
+    options = withDefaults(INSIDE, options);
+    return calling((call) => {
+        const { radius, count, surface, tolerance, order, quotient } = options;
+        const numbers = [
+            ...amount(radius, count), constant("surface", surface, SURFACES), tolerance, constant("order", order, ORDERS),
+            quotient,
+        ];
+        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const types = [Float32Array, Float32Array, Float64Array];
+        const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
+        const [positions, ranks, report] = call.make("volume_sample_inside", args, ...types);
+        const [found, coveringRadius, depth, surfaceSamples] = report;
+        return withRanks({ positions, radius: found, coveringRadius, depth, surfaceSamples }, ranks);
     });
 }
 

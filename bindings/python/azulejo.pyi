@@ -90,6 +90,18 @@ class VolumeReport:
     @property
     def seconds(self) -> float: ...
 
+class VolumeInsideReport:
+    @property
+    def radius(self) -> float: ...
+    @property
+    def covering_radius(self) -> float: ...
+    @property
+    def depth(self) -> float: ...
+    @property
+    def surface_samples(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+
 class KdrtMergeReport:
     @property
     def kept(self) -> int: ...
@@ -484,6 +496,21 @@ def volume_sample(
     domain_min: Optional[_Numbers] = None,
     domain_max: Optional[_Numbers] = None,
     boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    order: _Order = "any",
+    quotient: Optional[SupportsFloat] = None,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def volume_sample_inside(
+    mesh: _MeshLike,
+    radius: Optional[SupportsFloat] = 0.0,
+    *,
+    count: Optional[SupportsIndex] = 0,
+    surface: Literal["open", "first"] = "open",
+    tolerance: SupportsFloat = 0.0625,
     seed: SupportsIndex = 0,
     order: _Order = "any",
     quotient: Optional[SupportsFloat] = None,

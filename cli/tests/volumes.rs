@@ -6,8 +6,10 @@ mod common;
 mod ply;
 
 use std::fs;
+use std::sync::Arc;
 
-use azulejo::volume::{Options, sample};
+use azulejo::mesh::Mesh;
+use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Given, Order};
 use common::Workshop;
 use ply::floats;
@@ -142,9 +144,39 @@ fn volume_is_made_around_given_points() {
     assert!(points.iter().eq(expected.positions.iter()));
 }
 
+/// A tetrahedron, and without its last face.
+const SOLID: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
+
+#[test]
+fn volume_fills_the_inside_of_a_mesh() {
+    let workshop = Workshop::new();
+    workshop.write("solid.obj", format!("{SOLID}f 2 3 4\n"));
+    let mesh = Arc::new(Mesh::load(workshop.path("solid.obj")).unwrap());
+    let free = InsideOptions::new(0.2).seed(3);
+    for (arguments, options) in [
+        (&[][..], free),
+        (&["--surface-first"], free.surface(Surface::First)),
+        (&["--tolerance", "0.01"], free.tolerance(0.01)),
+    ] {
+        let all =
+            [&["volume", "--inside", "solid.obj", "--radius", "0.2", "--seed", "3", "-o", "a.ply"], arguments].concat();
+        let said = workshop.succeed(&all);
+        let (header, points) = rows(&workshop, "a.ply", 3);
+        let (expected, report) = sample_inside(&Context::new(1).unwrap(), &mesh, &options, None).unwrap();
+        assert!(points.iter().eq(expected.positions.iter()) && points.len() > 100);
+        assert!(header.contains("comment domain 0 0 0 2 2 2 bounded\n"), "{header}");
+        assert!(said.starts_with(&format!("a.ply: {} samples, radius 0.2, ", points.len())), "{said}");
+        let on_surface = format!(", {} on the surface, ", report.surface_samples);
+        assert_eq!(said.contains(&on_surface), report.surface_samples > 0, "{said}");
+    }
+    workshop.succeed(&["volume", "--inside", "solid.obj", "--count", "70", "--order", "progressive", "-o", "a.ply"]);
+    assert_eq!(rows(&workshop, "a.ply", 4).1.len(), 70);
+}
+
 #[test]
 fn volume_refuses_what_it_cannot_make() {
     let workshop = Workshop::new();
+    workshop.write("open.obj", SOLID);
     workshop.write("given.xyz", "0.5 0.5 0.5\n");
     workshop.write("flat.csv", "x,y\n0.5,0.5\n");
     for (arguments, code, text) in [
@@ -158,6 +190,15 @@ fn volume_refuses_what_it_cannot_make() {
         (&["--radius", "0.1", "--clearance", "0.2"], 2, "error: "),
         (&["--radius", "0.1", "--count", "5"], 2, "error: "),
         (&["--radius", "0.1", "--box", "0", "0", "1", "1"], 2, "error: "),
+        (
+            &["--radius", "0.1", "--inside", "open.obj"],
+            1,
+            "error: open.obj: is not closed: an odd number of triangles shares 3 of",
+        ),
+        (&["--radius", "0.1", "--inside", "none.obj"], 1, "error: none.obj: "),
+        (&["--radius", "0.1", "--inside", "open.obj", "--bounded"], 2, "error: "),
+        (&["--count", "9", "--inside", "open.obj", "--surface-first"], 2, "error: "),
+        (&["--radius", "0.1", "--tolerance", "0.1"], 2, "error: "),
         (&[], 2, "error: "),
     ] {
         let said = workshop.refuse(&[&["volume", "-o", "a.ply"], arguments].concat(), code);

@@ -1,5 +1,5 @@
 /*
- * Volumes: maximal Poisson-disk sets of cuboids.
+ * Volumes: maximal Poisson-disk sets of cuboids and inside meshes.
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -78,6 +78,88 @@ azulejo_status azulejo_volume_sample(const azulejo_context *context,
                                      const azulejo_volume_options *options,
                                      azulejo_points **out,
                                      azulejo_volume_report *report);
+
+#define AZULEJO_SURFACE_OPEN 0 ///< Samples lie anywhere inside.
+
+/// A maximal set of the surface comes first, and the inside is filled around it.
+#define AZULEJO_SURFACE_FIRST 1
+
+/// Options of azulejo_volume_sample_inside.
+typedef struct azulejo_volume_inside_options {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    /// An AZULEJO_SURFACE_ constant; default open. `first` takes a radius, and any order.
+    uint32_t surface;
+    /// As in azulejo_volume_options, up to `quotient`: above 0, and at least 64 float spacings. It
+    /// has no default; with a `count` it must be 0.
+    double radius;
+    /// Places inside may stay open that are nearer to the surface than sqrt(3) times this many
+    /// radii: 1/256 to 1/2; default 0.0625. A smaller one takes longer.
+    double tolerance;
+    uint64_t seed; ///< Default 0.
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
+    void *progress_user; ///< Passed to the progress callback.
+    size_t count; ///< The exact number of samples; default 0: as many as the radius gives.
+    uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
+    uint32_t reserved; ///< Always 0.
+    double quotient; ///< Of a progressive order: 1.02 to 1.5. Default 0: 2^(1/8).
+    /// Samples that stand already, x y z each, as in azulejo_volume_options. Default NULL.
+    const float *given_positions;
+    /// The clearance of each, 0 or more. Default NULL: the radius, which with a `count` is refused.
+    const double *given_clearances;
+    size_t given_count; ///< Their number; default 0.
+} azulejo_volume_inside_options;
+
+/// The report of azulejo_volume_sample_inside.
+typedef struct azulejo_volume_inside_report {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t samples; ///< The number of samples.
+    uint64_t surface_samples; ///< The number of samples of the surface, which come first.
+    double radius; ///< No two samples are nearer: the radius, also that of the set of a count.
+    /// No place inside that is deeper than `depth` is farther from all samples and outside of all
+    /// given ones: the radius, with a count mostly up to 1.1 times it.
+    double covering_radius;
+    double depth; ///< The greatest distance from the surface at which places inside can be open.
+    double seconds; ///< Wall time in seconds.
+} azulejo_volume_inside_report;
+
+/// Writes the defaults.
+azulejo_status azulejo_volume_inside_options_init(azulejo_volume_inside_options *options,
+                                                  size_t struct_size);
+
+/// Writes zeros and the size.
+azulejo_status azulejo_volume_inside_report_init(azulejo_volume_inside_report *report,
+                                                 size_t struct_size);
+
+/// Makes a maximal, conflict-free set of samples inside a mesh, which must be closed
+/// (azulejo_mesh_is_closed), x y z each: no place inside is farther from every sample than the
+/// radius and 7 float spacings, unless it is nearer to the surface than the report's `depth`. No
+/// sample is outside (azulejo_mesh_contains), except those of the surface, which
+/// azulejo_psp_sample makes with the same radius and seed. The result has positions only. Count,
+/// order and given samples are as in azulejo_volume_sample.
+/// - O(samples) time and memory. What is made of the mesh, O(triangles * log triangles) the first
+///   time, is kept with it.
+azulejo_status azulejo_volume_sample_inside(const azulejo_context *context,
+                                            const azulejo_mesh *mesh,
+                                            const azulejo_volume_inside_options *options,
+                                            azulejo_points **out,
+                                            azulejo_volume_inside_report *report);
+
+/// 1 if an even number of triangles shares each edge of the mesh, so that it has an inside, else 0.
+/// The direction of triangles does not matter, nor do intersections; vertices at one place are one.
+/// O(triangles) the first time.
+uint32_t azulejo_mesh_is_closed(const azulejo_mesh *mesh);
+
+/// Writes to `inside` for each of `count` points, x y z each, 1 if it is inside the mesh, else 0.
+/// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles,
+/// without rounding: meshes that share a face share no point. In any other mesh the generalised
+/// winding number is at least 1/2, or at most -1/2, up to .02. O(triangles * log triangles) the
+/// first time, then about O(log triangles) for a point.
+azulejo_status azulejo_mesh_contains(const azulejo_context *context,
+                                     const azulejo_mesh *mesh,
+                                     const float *positions,
+                                     size_t count,
+                                     uint8_t *inside);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@ use crate::rng::Rng;
 use crate::simd::{Lanes, Work};
 use crate::volume::grid::Grid;
 use crate::volume::search::{Centre, open_point};
+use crate::volume::shape::{Shape, Voxels};
 use crate::volume::voxels::{Level, Voxel};
 
 /// The first darts for each sample that will stand in the region: they bring three quarters of them.
@@ -38,7 +39,9 @@ impl Pass {
 }
 
 /// One pass over a block. The result are the new samples in it.
-pub struct Fill<'a> {
+pub struct Fill<'a, S> {
+    /// What of the block is filled.
+    pub shape: S,
     /// Memory that is used again.
     pub grid: &'a mut Grid,
     pub pass: Pass,
@@ -57,7 +60,15 @@ pub struct Fill<'a> {
     pub rng: Rng,
 }
 
-impl Work for Fill<'_> {
+impl<'a, S> Fill<'a, S> {
+    /// The same of another shape.
+    pub fn of_shape<T>(self, shape: T) -> Fill<'a, T> {
+        let Self { grid, pass, block, region, radius, separation, around, given, images, rng, .. } = self;
+        Fill { shape, grid, pass, block, region, radius, separation, around, given, images, rng }
+    }
+}
+
+impl<S: Shape> Work for Fill<'_, S> {
     type Out = Vec<Centre>;
 
     #[inline(always)]
@@ -71,36 +82,60 @@ impl Work for Fill<'_> {
     }
 }
 
-impl Fill<'_> {
+impl<S: Shape> Fill<'_, S> {
     #[inline(always)]
     fn fill<L: Lanes, const GIVEN: bool>(mut self, lanes: L) -> Vec<Centre> {
-        let (levels, open, mut accepted) = (self.grid.levels(), self.grid.open_cells(), Vec::new());
+        let (levels, mut accepted) = (self.grid.levels(), Vec::new());
+        let open = self.shape.cells(lanes, self.grid, self.grid.open_cells());
         match self.pass {
             _ if open.is_empty() => (),
-            Pass::First => self.throw_first::<L, GIVEN>(lanes, &levels[0], &open, &mut accepted),
+            Pass::First => self.throw_first::<L, GIVEN>(lanes, &levels, &open, &mut accepted),
             Pass::Last => self.close::<L, GIVEN>(lanes, &levels, open, &mut accepted),
         }
         accepted
     }
 
-    /// Throws darts on all open cells.
+    /// Throws darts on all open cells, and on the parts of cut ones that may lie in the shape.
     #[inline(always)]
     fn throw_first<L: Lanes, const GIVEN: bool>(
         &mut self,
         lanes: L,
-        cells: &Level,
-        open: &[Voxel],
+        levels: &[Level],
+        open: &Voxels,
         accepted: &mut Vec<Centre>,
     ) {
+        let (cells, mut parts) = (&levels[0], Voxels::default());
+        let (per_cell, mut index) = (u64::from(cells.all.count_ones()), 0);
+        while index < open.cut.len() && !cells.is_last {
+            let [inside, cut] = self.shape.parts(lanes, self.grid, cells, open.cut[index], cells.all);
+            cells.push_parts(open.cut[index], inside, &mut parts.inside);
+            cells.push_parts(open.cut[index], cut, &mut parts.cut);
+            index += 1;
+        }
         let side = |axis: usize| (f64::from(self.region.length(axis)) / self.radius).max(THIN);
         let expected = MAXIMAL_DENSITY_IN_SPACE * (0..3).map(side).product::<f64>();
-        let share = open.len() as f64 / self.grid.cells() as f64;
+        let whole = open.inside.len() as u64 * per_cell;
+        let share = (whole + parts.len() as u64) as f64 / (self.grid.cells() as u64 * per_cell) as f64;
         let mut left = (FIRST_DARTS * expected * share).ceil() as u64;
+        if parts.is_empty() {
+            let inside = &open.inside;
+            while left > 0 {
+                left -= 1;
+                let cell = inside[self.rng.below(inside.len() as u64) as usize];
+                self.throw::<L, GIVEN>(lanes, cells, cell, false, accepted);
+            }
+            return;
+        }
         while left > 0 {
-            let number = self.rng.below(open.len() as u64) as usize;
-            let cell = if GIVEN { open[number] } else { Voxel::cell(number) };
-            self.throw::<L, GIVEN>(lanes, cells, cell, accepted);
             left -= 1;
+            let number = self.rng.below(whole + parts.len() as u64);
+            if number < whole {
+                let cell = open.inside[(number / per_cell) as usize];
+                self.throw::<L, GIVEN>(lanes, cells, cell, false, accepted);
+            } else {
+                let (voxel, is_cut) = parts.get((number - whole) as usize);
+                self.throw::<L, GIVEN>(lanes, &levels[1], voxel, is_cut, accepted);
+            }
         }
     }
 
@@ -110,37 +145,75 @@ impl Fill<'_> {
         &mut self,
         lanes: L,
         levels: &[Level],
-        mut open: Vec<Voxel>,
+        mut open: Voxels,
         accepted: &mut Vec<Centre>,
     ) {
-        let (mut parts, mut number) = (Vec::new(), 0);
+        let (mut parts, mut number) = (Voxels::default(), 0);
         loop {
             let level = &levels[number];
             // First darts have fallen on whole cells: the rounds begin with their parts.
-            if number > 0 {
+            if number > 0 && !open.is_empty() {
                 let per_voxel = DARTS[(number - 1).min(DARTS.len() - 1)];
-                let mut left = (per_voxel * open.len() as f64).ceil() as u64;
-                while left > 0 {
-                    let voxel = open[self.rng.below(open.len() as u64) as usize];
-                    self.throw::<L, GIVEN>(lanes, level, voxel, accepted);
-                    left -= 1;
-                }
+                let left = (per_voxel * open.len() as f64).ceil() as u64;
+                self.throw_all::<L, GIVEN>(lanes, level, &open, left, accepted);
             }
             if level.is_last {
-                return self.search(lanes, level, &open, accepted);
+                return self.search(lanes, level, &open.inside, accepted);
             }
             parts.clear();
             let mut index = 0;
-            while index < open.len() {
-                let mut bits = self.grid.open_parts::<L, GIVEN>(lanes, level, open[index]);
-                while bits != 0 {
-                    parts.push(level.part(open[index], bits.trailing_zeros()));
-                    bits &= bits - 1;
+            while index < open.inside.len() {
+                let bits = self.grid.open_parts::<L, GIVEN>(lanes, level, open.inside[index]);
+                level.push_parts(open.inside[index], bits, &mut parts.inside);
+                index += 1;
+            }
+            let mut index = 0;
+            while index < open.cut.len() {
+                let bits = self.grid.open_parts::<L, GIVEN>(lanes, level, open.cut[index]);
+                if bits != 0 {
+                    let [inside, cut] = self.shape.parts(lanes, self.grid, level, open.cut[index], bits);
+                    level.push_parts(open.cut[index], inside, &mut parts.inside);
+                    level.push_parts(open.cut[index], cut, &mut parts.cut);
                 }
                 index += 1;
             }
             std::mem::swap(&mut open, &mut parts);
             number += 1;
+        }
+    }
+
+    /// Throws darts on voxels at random.
+    #[inline(always)]
+    fn throw_all<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        level: &Level,
+        open: &Voxels,
+        mut left: u64,
+        accepted: &mut Vec<Centre>,
+    ) {
+        while left > 0 {
+            left -= 1;
+            let number = self.rng.below(open.len() as u64) as usize;
+            let (voxel, is_cut) = open.get(number);
+            self.throw::<L, GIVEN>(lanes, level, voxel, is_cut, accepted);
+        }
+    }
+
+    #[inline(always)]
+    fn throw<L: Lanes, const GIVEN: bool>(
+        &mut self,
+        lanes: L,
+        level: &Level,
+        voxel: Voxel,
+        is_cut: bool,
+        accepted: &mut Vec<Centre>,
+    ) {
+        let dart = self.grid.dart(level, voxel, self.rng.bits());
+        if let Some(sample) = self.grid.hit::<L, GIVEN>(lanes, &dart)
+            && (!is_cut || self.shape.holds(sample))
+        {
+            self.accept(lanes, sample, accepted);
         }
     }
 
@@ -156,20 +229,6 @@ impl Fill<'_> {
                     near.extend(&self.grid.balls()[known..]);
                 }
             }
-        }
-    }
-
-    #[inline(always)]
-    fn throw<L: Lanes, const GIVEN: bool>(
-        &mut self,
-        lanes: L,
-        level: &Level,
-        voxel: Voxel,
-        accepted: &mut Vec<Centre>,
-    ) {
-        let dart = self.grid.dart(level, voxel, self.rng.bits());
-        if let Some(sample) = self.grid.hit::<L, GIVEN>(lanes, &dart) {
-            self.accept(lanes, sample, accepted);
         }
     }
 

@@ -10,6 +10,8 @@
 //! `1 + SLACK` none, and what lies between is decided by the integers. Voxels that a ball covers within the slack only are
 //! divided, until the last ones are searched in integers (`search.rs`).
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::plane::{Disk, Rect, Separation};
 use crate::simd::{LANES, Lanes};
 use crate::volume::obstacles::{Cells, Obstacles};
@@ -44,6 +46,20 @@ struct Page([[f32; LANES]; 3]);
 
 impl Page {
     const EMPTY: Self = Self([[FAR; LANES]; 3]);
+}
+
+/// Grids that no thread uses now: their memory is used again.
+#[derive(Default)]
+pub struct Grids(Mutex<Vec<Grid>>);
+
+impl Grids {
+    pub fn take(&self) -> Grid {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
+    }
+
+    pub fn give(&self, grid: Grid) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(grid);
+    }
 }
 
 /// The cells of a region, a box of lattice points, and the balls of one radius that touch them.
@@ -94,7 +110,7 @@ impl Grid {
         self.sides = std::array::from_fn(|axis| f64::from(self.size[axis]) / self.counts[axis] as f64);
         self.per_unit = self.sides.map(|side| 1.0 / side);
         (self.radius, self.per_radius, self.separation) = (radius, 1.0 / radius, separation);
-        let margin = MARGIN + MARGIN_IN_RADII * radius;
+        let margin = Self::margin(radius);
         self.reach = radius + margin;
         self.limit = ((self.reach / radius) * (self.reach / radius)) as f32;
         // A lattice point is at most sqrt(3) margins away.
@@ -114,6 +130,21 @@ impl Grid {
         self.next.clear();
         self.next.resize(cells, 0);
         self.given = if given.is_empty() { Obstacles::default() } else { self.obstacles(given, margin) };
+    }
+
+    /// How far from its voxel a dart can be that is rounded, in units.
+    pub fn margin(radius: f64) -> f64 {
+        MARGIN + MARGIN_IN_RADII * radius
+    }
+
+    /// The cells along each axis.
+    pub fn counts(&self) -> [usize; 3] {
+        self.counts
+    }
+
+    /// The numbers of a cell along the axes.
+    pub fn place(&self, cell: usize) -> [u16; 3] {
+        self.places[cell]
     }
 
     /// Given balls in the cells.

@@ -1,4 +1,4 @@
-//! Maximal Poisson-disk sets of cuboids.
+//! Maximal Poisson-disk sets of cuboids, and of the inside of meshes.
 //!
 //! Source: Ebeida et al. 2012, "A simple algorithm for maximal Poisson-disk sampling in high dimensions", whose voxels are
 //! divided until a sample covers them, in blocks. The domain is cut by a random kd-tree into *blocks* (`blocks.rs`), which
@@ -9,12 +9,18 @@
 //! All positions are points of the integer lattice of the plane, with a third axis (`plane/lattice.rs`).
 
 mod blocks;
+mod body;
 mod fill;
 mod grid;
+mod inside;
+mod inside_options;
 mod obstacles;
 mod ranks;
 mod search;
 mod set;
+mod shape;
+mod solid;
+mod space;
 mod voxels;
 
 use crate::error::{Error, Result};
@@ -30,6 +36,10 @@ use crate::plane::{GivenDisks, Lattice, float_spacing};
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_radius, finest_radius};
 use crate::setters::setters;
 use crate::volume::set::{Sample, Set};
+use body::Body;
+pub use inside_options::{InsideOptions, Surface};
+pub use solid::{InsideReport, sample_inside};
+use space::Space;
 
 /// The most bytes of memory that a sample takes, with its position in the result: lattice points, also those of a pass
 /// before they are put to the others, and positions.
@@ -145,13 +155,23 @@ pub struct Report {
 /// before any work; [`Error::Cancelled`].
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
     let stopwatch = Stopwatch::start();
+    let (points, [radius, covering_radius]) = fill(context, options, None, progress)?;
+    Ok((points, Report { radius, covering_radius, seconds: stopwatch.seconds() }))
+}
+
+/// A set of a cuboid, or of a body in it, with its radius and covering radius.
+fn fill(
+    context: &Context,
+    options: &Options,
+    body: Option<&Body>,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, [f64; 2])> {
     let &Options { amount, domain, seed, order, quotient, given } = options;
     domain.check()?;
     given.check()?;
     if order == Order::Progressive {
         check_quotient(quotient)?;
     }
-    let report = |radius: f64, covering_radius: f64| Report { radius, covering_radius, seconds: stopwatch.seconds() };
     let finest = finest_radius(float_spacing(domain.min.iter().chain(&domain.max)));
     let bytes_per_sample = match (amount, order) {
         (Amount::Radius(_), Order::Any) => BYTES_PER_SAMPLE,
@@ -160,32 +180,27 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     };
     let lattice = match amount {
         Amount::Radius(radius) => {
-            let expected = checked_samples(&domain, radius)?;
+            let expected = checked_samples(&domain, body, radius)?;
             // Before the memory: the radius that floats allow.
             let lattice = Lattice::of_any_size(&domain, radius)?;
-            require(context, expected, bytes_per_sample, &given, "radius")?;
+            require(context, expected, bytes_per_sample, &given, body, "radius")?;
             lattice
         }
         Amount::Count(count) => {
             check_count(count, &given)?;
-            require(context, count as f64, bytes_per_sample, &given, "count")?;
+            require(context, count as f64, bytes_per_sample, &given, body, "count")?;
             Lattice::of_any_size(&domain, finest)?
         }
     };
-    if let (Amount::Radius(radius), Order::Any) = (amount, order) {
-        let given = GivenDisks::new(&domain, &lattice, radius, &given);
-        let set = context.run(progress, |job| Set::maximal(job, &lattice, &given, seed))?;
-        let points = set.into_positions().into();
-        return Ok((points, report(radius, radius)));
-    }
     // Beside a count each given sample has a clearance.
     let radius = if let Amount::Radius(radius) = amount { radius } else { finest };
-    let cuboid = Cuboid {
-        has_given: !given.positions.is_empty(),
-        given: GivenDisks::new(&domain, &lattice, radius, &given),
-        domain,
-        lattice: &lattice,
-    };
+    let (has_given, given) = (!given.positions.is_empty(), GivenDisks::new(&domain, &lattice, radius, &given));
+    let space = Space { lattice: &lattice, given: &given, solid: body.map(Body::solid) };
+    if let (Amount::Radius(radius), Order::Any) = (amount, order) {
+        let set = context.run(progress, |job| Set::maximal(job, space, seed))?;
+        return Ok((set.into_positions().into(), [radius; 2]));
+    }
+    let cuboid = Cuboid { has_given, domain, body, space };
     let levels = Levels::new(cuboid, seed);
     let found = context.run(progress, |job| match (amount, order) {
         (Amount::Radius(radius), _) => levels::by_radius(job, levels, quotient, radius),
@@ -197,13 +212,13 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     if order == Order::Progressive {
         points.ranks = found.samples.iter().map(|sample| sample.rank).collect();
     }
-    Ok((points, report(found.radius, found.covering_radius)))
+    Ok((points, [found.radius, found.covering_radius]))
 }
 
 /// The approximate number of samples of a radius; refuses one out of range, and more samples than can be indexed.
-fn checked_samples(domain: &Domain<3>, radius: f64) -> Result<f64> {
+fn checked_samples(domain: &Domain<3>, body: Option<&Body>, radius: f64) -> Result<f64> {
     check_radius(radius)?;
-    let (expected, limit) = (expected_samples(domain, radius), f64::from(u32::MAX));
+    let (expected, limit) = (expected_samples(domain, body, radius), f64::from(u32::MAX));
     if expected > limit {
         let reason = format!("{radius:?} asks for about {expected:.2e} samples, above the limit of {limit:.2e}");
         return Err(Error::too_large("radius", reason));
@@ -223,21 +238,29 @@ fn check_count(count: usize, given: &Given<3>) -> Result<()> {
 }
 
 /// Refuses more samples than can be held beside given ones.
-fn require(context: &Context, samples: f64, bytes: f64, given: &Given<3>, argument: &'static str) -> Result<()> {
+fn require(
+    context: &Context,
+    samples: f64,
+    bytes: f64,
+    given: &Given<3>,
+    body: Option<&Body>,
+    argument: &'static str,
+) -> Result<()> {
     let threads = (context.num_threads() as f64).min(samples / SAMPLES_PER_THREAD);
     let given = given.positions.len() as f64;
     let bytes_per_given = BYTES_PER_GIVEN + BYTES_PER_GIVEN_OF_BLOCK * (SAMPLES_OF_BLOCK / samples).min(1.0);
     let bytes_per_thread = BYTES_PER_THREAD + if given > 0.0 { BYTES_PER_THREAD_AROUND } else { 0.0 };
     let bytes = samples * bytes + given * bytes_per_given + threads.max(1.0) * bytes_per_thread;
+    let bytes = bytes + body.map_or(0.0, |body| body.bytes);
     memory::require(bytes, argument, &format!("about {samples:.0} samples"))
 }
 
-/// A cuboid that is filled level by level.
+/// A cuboid, or a body in it, that is filled level by level.
 struct Cuboid<'a> {
     domain: Domain<3>,
-    /// Of any radius.
-    lattice: &'a Lattice<3>,
-    given: GivenDisks<3>,
+    body: Option<&'a Body>,
+    /// Its lattice is of any radius.
+    space: Space<'a>,
     has_given: bool,
 }
 
@@ -266,7 +289,7 @@ impl Levelled for Cuboid<'_> {
     }
 
     fn expected(&self, radius: f64) -> f64 {
-        expected_samples(&self.domain, radius)
+        expected_samples(&self.domain, self.body, radius)
     }
 
     fn check_work(&self, radius: f64, count: usize) -> Result<()> {
@@ -279,8 +302,17 @@ impl Levelled for Cuboid<'_> {
     }
 
     fn fill(&self, job: &Job, options: LevelOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
-        let lattice = self.lattice.with_radius(radius);
-        let added = Set::added(job, &lattice, &self.given, options, samples)?;
+        let lattice = self.space.lattice.with_radius(radius);
+        let mut space = Space { lattice: &lattice, ..self.space };
+        let mut added = Set::added(job, space, options, samples)?;
+        // A body that is thinner than the tolerance of a large radius.
+        while let Some(solid) = &mut space.solid
+            && samples.is_empty()
+            && added.is_empty()
+            && solid.refine()
+        {
+            added = Set::added(job, space, options, samples)?;
+        }
         let mut all = Vec::with_capacity(samples.len() + added.len());
         all.extend_from_slice(samples);
         all.extend(added);
@@ -290,7 +322,10 @@ impl Levelled for Cuboid<'_> {
 }
 
 /// The approximate number of samples; at least one.
-fn expected_samples(domain: &Domain<3>, radius: f64) -> f64 {
+fn expected_samples(domain: &Domain<3>, body: Option<&Body>, radius: f64) -> f64 {
+    if let Some(body) = body {
+        return body.expected_samples(radius);
+    }
     let beyond = if domain.boundary == Boundary::Bounded { BEYOND } else { 0.0 };
     let volume: f64 = domain.extent().into_iter().map(|side| side / radius + beyond).product();
     (MAXIMAL_DENSITY_IN_SPACE * volume).max(1.0)
@@ -303,7 +338,7 @@ mod tests {
     fn count(radius: f64, size: [f64; 3], boundary: Boundary) -> (f64, f64) {
         let options = Options::new(radius).domain(Domain { min: [0.0; 3], max: size, boundary });
         let (samples, _) = sample(&Context::new(1).unwrap(), &options, None).unwrap();
-        (samples.len() as f64, expected_samples(&options.domain, radius))
+        (samples.len() as f64, expected_samples(&options.domain, None, radius))
     }
 
     #[test]

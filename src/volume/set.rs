@@ -1,18 +1,17 @@
 //! A set of a cuboid, filled block by block.
 
-use std::sync::{Mutex, PoisonError};
-
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::levels::LevelOptions;
-use crate::plane::{GivenDisks, Lattice, Rect};
+use crate::plane::Rect;
 use crate::rng::{Draw, Rng};
-use crate::simd::{self, Level};
+use crate::simd::Level;
 use crate::volume::blocks::{Blocks, REACH};
 use crate::volume::fill::{Fill, Pass};
-use crate::volume::grid::Grid;
+use crate::volume::grid::Grids;
 use crate::volume::ranks;
 use crate::volume::search::Centre;
+use crate::volume::space::Space;
 
 /// The samples that one task assigns to blocks, and the share of a level that this takes.
 const SAMPLES_PER_TASK: usize = 1 << 14;
@@ -28,8 +27,7 @@ pub struct Sample {
 
 /// The samples of a cuboid as lattice points, by their blocks.
 pub struct Set<'a> {
-    lattice: &'a Lattice<3>,
-    given: &'a GivenDisks<3>,
+    space: Space<'a>,
     blocks: Blocks,
     samples: Vec<Vec<Centre>>,
     /// The number of samples of each block that were there at first.
@@ -37,34 +35,27 @@ pub struct Set<'a> {
     /// The largest rank, and the ranks of the samples that were added to each block, if they get any.
     largest_rank: Option<f64>,
     ranks: Vec<Vec<f32>>,
-    /// Grids that no thread uses now.
-    grids: Mutex<Vec<Grid>>,
+    grids: Grids,
     level: Level,
 }
 
 impl<'a> Set<'a> {
     /// A maximal set around given balls, by the widest vectors of the processor.
-    pub fn maximal(job: &Job, lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64) -> Result<Self> {
-        Self::new(job, lattice, given, seed, Level::widest())
+    pub fn maximal(job: &Job, space: Space<'a>, seed: u64) -> Result<Self> {
+        Self::new(job, space, seed, Level::widest())
     }
 
     /// A maximal set around given balls, by instructions of some level.
-    pub fn new(job: &Job, lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64, level: Level) -> Result<Self> {
-        let mut set = Self::empty(lattice, given, seed, level);
+    pub fn new(job: &Job, space: Space<'a>, seed: u64, level: Level) -> Result<Self> {
+        let mut set = Self::empty(space, seed, level);
         set.fill(job, Pass::ALL)?;
         Ok(set)
     }
 
     /// What a fill adds to samples of a larger radius: a level, with ranks up to the largest one.
-    pub fn added(
-        job: &Job,
-        lattice: &'a Lattice<3>,
-        given: &'a GivenDisks<3>,
-        options: LevelOptions,
-        before: &[Sample],
-    ) -> Result<Vec<Sample>> {
+    pub fn added(job: &Job, space: Space<'a>, options: LevelOptions, before: &[Sample]) -> Result<Vec<Sample>> {
         let LevelOptions { seed, throws_first, largest_rank } = options;
-        let mut set = Self { largest_rank, ..Self::empty(lattice, given, seed, Level::widest()) };
+        let mut set = Self { largest_rank, ..Self::empty(space, seed, Level::widest()) };
         let chunks = chunks_of(before.len(), SAMPLES_PER_TASK);
         let blocks = job.part(0.0, SORTING).flat_map(chunks.len(), |chunk| {
             chunks.range(chunk).map(|index| set.blocks.holding(before[index].point)).collect()
@@ -83,12 +74,12 @@ impl<'a> Set<'a> {
         Ok(added)
     }
 
-    fn empty(lattice: &'a Lattice<3>, given: &'a GivenDisks<3>, seed: u64, level: Level) -> Self {
-        let blocks = Blocks::new(lattice, seed);
+    fn empty(space: Space<'a>, seed: u64, level: Level) -> Self {
+        let blocks = Blocks::new(space.lattice, seed);
         let count = blocks.leaves.len();
         let (samples, ranks) = (vec![Vec::new(); count], vec![Vec::new(); count]);
-        let (known, grids) = (vec![0; count], Mutex::default());
-        Self { lattice, given, blocks, samples, known, largest_rank: None, ranks, grids, level }
+        let (known, grids) = (vec![0; count], Grids::default());
+        Self { space, blocks, samples, known, largest_rank: None, ranks, grids, level }
     }
 
     /// Adds samples until the set is maximal.
@@ -118,7 +109,7 @@ impl<'a> Set<'a> {
 
     /// The new samples of one pass over a block, which depend only on its place and on the samples around it, and their ranks.
     fn fill_block(&self, block: u32, pass: Pass) -> (Vec<Centre>, Vec<f32>) {
-        let Self { lattice, blocks, .. } = self;
+        let Self { space: Space { lattice, given, .. }, blocks, .. } = self;
         let leaf = &blocks.leaves[block as usize];
         let region = blocks.region(lattice, &leaf.rect, pass);
         let mut window = region.grown(lattice.separation.reach + 1);
@@ -126,9 +117,9 @@ impl<'a> Set<'a> {
             window = window.hull(&leaf.rect.grown((REACH * lattice.radius).ceil() as i32 + 1));
         }
         let around = self.around(block, &window);
-        let grids = || self.grids.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut grid = grids().pop().unwrap_or_default();
+        let mut grid = self.grids.take();
         let fill = Fill {
+            shape: (),
             grid: &mut grid,
             pass,
             block: leaf.rect,
@@ -136,12 +127,12 @@ impl<'a> Set<'a> {
             radius: lattice.radius,
             separation: lattice.separation,
             around: &around,
-            given: &self.given.near(&region),
+            given: &given.near(&region),
             images: &blocks.images,
             rng: Rng::at(leaf.key, Draw::Volume, &[pass as u64]),
         };
-        let added = simd::run(self.level, fill);
-        grids().push(grid);
+        let added = self.space.run(self.level, fill);
+        self.grids.give(grid);
         let ranks = self
             .largest_rank
             .map(|largest| ranks::up_to(largest, lattice, &leaf.rect, &around, &added, &blocks.images));
@@ -169,7 +160,7 @@ impl<'a> Set<'a> {
     pub fn into_positions(self) -> Vec<[f32; 3]> {
         let mut positions = Vec::with_capacity(self.samples.iter().map(Vec::len).sum());
         for samples in self.samples {
-            positions.extend(samples.into_iter().map(|sample| self.lattice.position(sample)));
+            positions.extend(samples.into_iter().map(|sample| self.space.lattice.position(sample)));
         }
         positions
     }
@@ -179,13 +170,15 @@ impl<'a> Set<'a> {
 mod tests {
     use super::*;
     use crate::job::Context;
+    use crate::plane::{GivenDisks, Lattice};
     use crate::points::{Boundary, Domain};
     use crate::volume::search::square;
 
     fn positions(lattice: &Lattice<3>, seed: u64, level: Level) -> Vec<Centre> {
         let context = Context::new(1).unwrap();
         let given = GivenDisks::default();
-        let set = context.run(None, |job| Set::new(job, lattice, &given, seed, level)).unwrap();
+        let space = Space { lattice, given: &given, solid: None };
+        let set = context.run(None, |job| Set::new(job, space, seed, level)).unwrap();
         set.samples.into_iter().flatten().collect()
     }
 

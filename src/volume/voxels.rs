@@ -115,6 +115,32 @@ impl Level {
         levels
     }
 
+    /// Adds the parts of a voxel that have a bit to some of the next level.
+    #[inline(always)]
+    pub fn push_parts(&self, voxel: Voxel, mut bits: u64, parts: &mut Vec<Voxel>) {
+        while bits != 0 {
+            parts.push(self.part(voxel, bits.trailing_zeros()));
+            bits &= bits - 1;
+        }
+    }
+
+    /// The vector from a voxel's centre to those of its parts with this number along an axis.
+    #[inline(always)]
+    pub fn offset(&self, axis: usize, number: usize) -> f32 {
+        match axis {
+            0 => self.columns[0][number],
+            1 => self.columns[1][number * PARTS as usize],
+            _ => self.layers[number],
+        }
+    }
+
+    /// The centre of the part that a bit stands for, of a voxel with this centre.
+    pub fn part_centre(&self, centre: [f32; 3], bit: u32) -> [f32; 3] {
+        let bit = bit as usize;
+        let numbers = [bit % 4, bit / 4 % 4, bit / 16];
+        std::array::from_fn(|axis| centre[axis] + self.offset(axis, numbers[axis]))
+    }
+
     /// The part of a voxel that a bit stands for: a voxel of the next level.
     #[inline(always)]
     pub fn part(&self, voxel: Voxel, bit: u32) -> Voxel {

@@ -30,7 +30,7 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
 use azulejo::thin::{self, thin};
 use azulejo::volume;
-use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Order, Points, Progress, Region, Result};
+use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Interior, Order, Points, Progress, Region, Result};
 
 use crate::common::meshes;
 use crate::common::sets::random_points;
@@ -77,6 +77,7 @@ static PIECE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
     maximal::sample(&Context::new(1).unwrap(), &options, None).unwrap().positions
 });
 static MESH: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::fine_torus(60, 30)));
+static SOLID: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::welded(meshes::fine_torus(60, 30))));
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
 static CLASSES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.06, 0.03], 1.0).unwrap());
 static MULTIPLES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[1.0, 0.5], 1.0).unwrap());
@@ -539,19 +540,46 @@ const RELAXATION: &[Call] = &[
     },
 ];
 
-const VOLUME: &[Call] = &[Call {
-    name: "volume::sample",
-    reports: 15,
-    run: |c, p| samples(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
-    refused: &[
-        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
-        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
-        ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
-        ("domain_max: ", |c, p| {
-            said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
-        }),
-    ],
-}];
+const VOLUME: &[Call] = &[
+    Call {
+        name: "volume::sample",
+        reports: 15,
+        run: |c, p| samples(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
+        refused: &[
+            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
+            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
+            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
+            ("domain_max: ", |c, p| {
+                said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
+            }),
+        ],
+    },
+    Call {
+        name: "volume::sample_inside",
+        reports: 5,
+        run: |c, p| {
+            samples(volume::sample_inside(
+                c,
+                &SOLID,
+                &volume::InsideOptions::new(0.03).surface(volume::Surface::First),
+                p,
+            ))
+        },
+        refused: &[
+            ("mesh: ", |c, p| said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(0.1), p))),
+            ("radius: ", |c, p| said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(-0.1), p))),
+            ("tolerance: ", |c, p| {
+                said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
+            }),
+        ],
+    },
+    Call {
+        name: "interior::Interior::contains_each",
+        reports: 3,
+        run: |c, p| said(Interior::of(&SOLID).contains_each(c, &[[0.1; 3]; 10_000], p)),
+        refused: &[("positions: ", |c, p| said(Interior::of(&SOLID).contains_each(c, &[[f32::NAN; 3]], p)))],
+    },
+];
 
 const ANALYSIS: &[Call] = &[
     Call {

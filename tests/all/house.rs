@@ -37,8 +37,8 @@ const IN_CIRCLES: &[&str] = &[];
 /// The modules of the crate: each imports only from those before it.
 const ORDER: &[&str] = &[
     "error", "host", "setters", "math", "check", "centred", "rng", "simd", "memory", "kept", "job", "mask", "points",
-    "order", "given", "region", "classes", "levels", "mesh", "index", "editable", "geometry", "plane", "maximal",
-    "kdrt", "volume", "trace", "psp", "thin", "dcr", "analysis",
+    "order", "given", "region", "classes", "levels", "mesh", "index", "interior", "editable", "geometry", "plane",
+    "maximal", "kdrt", "trace", "psp", "volume", "thin", "dcr", "analysis",
 ];
 
 /// A file of src/ without its unit tests.

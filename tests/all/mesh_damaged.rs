@@ -59,11 +59,13 @@ fn glb() -> Vec<u8> {
         "byteLength":36,"byteStride":12},{"buffer":0,"byteOffset":36,"byteLength":3}],"buffers":[{"byteLength":40}]}"#;
     let mut json = document.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
-    let mut arrays: Vec<u8> = [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let mut arrays: Vec<u8> =
+        [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
     arrays.extend([0, 1, 2, 0]);
     let word = |number: usize| (number as u32).to_le_bytes();
     let length = 12 + 8 + json.len() + 8 + arrays.len();
-    [b"glTF", &word(2)[..], &word(length), &word(json.len()), b"JSON", &json, &word(arrays.len()), b"BIN\0", &arrays].concat()
+    [b"glTF", &word(2)[..], &word(length), &word(json.len()), b"JSON", &json, &word(arrays.len()), b"BIN\0", &arrays]
+        .concat()
 }
 
 #[test]

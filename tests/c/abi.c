@@ -121,6 +121,31 @@ FIELD(azulejo_volume_report, radius, 16);
 FIELD(azulejo_volume_report, seconds, 24);
 FIELD(azulejo_volume_report, covering_radius, 32);
 
+SIZE(azulejo_volume_inside_options, 96);
+FIELD(azulejo_volume_inside_options, struct_size, 0);
+FIELD(azulejo_volume_inside_options, surface, 4);
+FIELD(azulejo_volume_inside_options, radius, 8);
+FIELD(azulejo_volume_inside_options, tolerance, 16);
+FIELD(azulejo_volume_inside_options, seed, 24);
+FIELD(azulejo_volume_inside_options, progress, 32);
+FIELD(azulejo_volume_inside_options, progress_user, 40);
+FIELD(azulejo_volume_inside_options, count, 48);
+FIELD(azulejo_volume_inside_options, order, 56);
+FIELD(azulejo_volume_inside_options, reserved, 60);
+FIELD(azulejo_volume_inside_options, quotient, 64);
+FIELD(azulejo_volume_inside_options, given_positions, 72);
+FIELD(azulejo_volume_inside_options, given_clearances, 80);
+FIELD(azulejo_volume_inside_options, given_count, 88);
+
+SIZE(azulejo_volume_inside_report, 56);
+FIELD(azulejo_volume_inside_report, struct_size, 0);
+FIELD(azulejo_volume_inside_report, reserved, 4);
+FIELD(azulejo_volume_inside_report, samples, 8);
+FIELD(azulejo_volume_inside_report, surface_samples, 16);
+FIELD(azulejo_volume_inside_report, radius, 24);
+FIELD(azulejo_volume_inside_report, covering_radius, 32);
+FIELD(azulejo_volume_inside_report, depth, 40);
+FIELD(azulejo_volume_inside_report, seconds, 48);
 SIZE(azulejo_mask_options, 64);
 FIELD(azulejo_mask_options, struct_size, 0);
 FIELD(azulejo_mask_options, channels, 4);
@@ -467,6 +492,13 @@ static void signatures(void) {
     azulejo_status (*volume_report_init)(azulejo_volume_report *, size_t) = azulejo_volume_report_init;
     azulejo_status (*volume_sample)(const azulejo_context *, const azulejo_volume_options *, azulejo_points **,
                                     azulejo_volume_report *) = azulejo_volume_sample;
+    azulejo_status (*inside_options_init)(azulejo_volume_inside_options *, size_t) = azulejo_volume_inside_options_init;
+    azulejo_status (*inside_report_init)(azulejo_volume_inside_report *, size_t) = azulejo_volume_inside_report_init;
+    azulejo_status (*sample_inside)(const azulejo_context *, const azulejo_mesh *, const azulejo_volume_inside_options *,
+                                    azulejo_points **, azulejo_volume_inside_report *) = azulejo_volume_sample_inside;
+    uint32_t (*mesh_is_closed)(const azulejo_mesh *) = azulejo_mesh_is_closed;
+    azulejo_status (*mesh_contains)(const azulejo_context *, const azulejo_mesh *, const float *, size_t, uint8_t *) =
+        azulejo_mesh_contains;
     azulejo_status (*mask_create)(const azulejo_context *, const azulejo_mask_options *, azulejo_mask **,
                                   azulejo_mask_report *) = azulejo_mask_create;
     size_t (*mask_size)(const azulejo_mask *, uint32_t) = azulejo_mask_size;
@@ -508,6 +540,7 @@ static void signatures(void) {
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
     CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
     CHECK(volume_options_init && volume_report_init && volume_sample);
+    CHECK(inside_options_init && inside_report_init && sample_inside && mesh_is_closed && mesh_contains);
     CHECK(mask_create && mask_size && mask_ranks && mask_values && mask_dither && mask_dither_bytes && mask_free);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);
 }

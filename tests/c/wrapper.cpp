@@ -470,6 +470,28 @@ void volumes() {
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius: -1", [&] { azulejo::volume_sample(context, options); }));
 }
 
+void insides() {
+    const azulejo::Context context(2);
+    const std::vector<float> corners = {0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
+    const std::vector<std::uint32_t> faces = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    const azulejo::Mesh mesh(corners, faces);
+    CHECK(mesh.is_closed());
+    azulejo::VolumeInsideOptions options;
+    azulejo::VolumeInsideReport report;
+    options.radius = 0.2;
+    options.surface = AZULEJO_SURFACE_FIRST;
+    const auto points = azulejo::volume_sample_inside(context, mesh, options, &report);
+    CHECK(points.dimension() == 3 && points.size() == report.samples && points.triangles().empty());
+    CHECK(report.surface_samples > 50 && report.surface_samples < report.samples && report.depth < 0.03);
+    const std::vector<float> places = {0.5f, 0.5f, 0.5f, 1.0f, 1.0f, 1.0f};
+    const auto inside = azulejo::mesh_contains(context, mesh, places);
+    CHECK(inside == (std::vector<std::uint8_t>{1, 0}));
+    const azulejo::Mesh open(corners, std::vector<std::uint32_t>(faces.begin(), faces.end() - 3));
+    CHECK(!open.is_closed());
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "mesh: is not closed",
+                 [&] { azulejo::volume_sample_inside(context, open, options); }));
+}
+
 void adaptive() {
     const azulejo::Context context(3);
     const azulejo::Mesh mesh(positions, indices);
@@ -685,6 +707,7 @@ int main() {
     thinning();
     masks();
     volumes();
+    insides();
     adaptive();
     frames();
     random_numbers();

@@ -1,9 +1,12 @@
-//! Sets of cuboids.
+//! Sets of cuboids, and of the inside of a mesh.
 
-use azulejo::volume::{Options, sample};
+use std::sync::Arc;
+
+use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Given, Order, Result};
 
 use super::list::List;
+use super::meshes::torus;
 
 const fn cuboid(min: [f64; 3], max: [f64; 3], boundary: Boundary) -> Domain<3> {
     Domain { min, max, boundary }
@@ -45,6 +48,24 @@ pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
         ] {
             list.samples(&format!("volume {place}, {name}"), &sample(context, &options, None)?.0);
         }
+    }
+    insides(context, radius, list)
+}
+
+fn insides(context: &Context, radius: f64, list: &mut List) -> Result<()> {
+    let mesh = Arc::new(torus(60, 30, false)?);
+    let given = Given::with_clearances(&[[1.0, 0.0, 0.1], [0.0, -0.9, 0.0]], &[0.3, 0.05]);
+    let (free, count) = (InsideOptions::new(radius).seed(83), InsideOptions::by_count(800).seed(84));
+    for (name, options) in [
+        ("open", free),
+        ("fine tolerance", free.tolerance(1.0 / 64.0)),
+        ("surface", free.surface(Surface::First)),
+        ("surface, given", free.surface(Surface::First).given(given)),
+        ("progressive", free.order(Order::Progressive)),
+        ("count", count),
+        ("count, given", count.given(given)),
+    ] {
+        list.samples(&format!("volume inside, {name}"), &sample_inside(context, &mesh, &options, None)?.0);
     }
     Ok(())
 }

@@ -6,6 +6,7 @@
 mod analysis;
 mod answer;
 mod edit;
+mod inside;
 mod memory;
 mod plane;
 mod surface;

@@ -453,6 +453,27 @@ function hasSum(name, ...arrays) {
     return line.startsWith(hash.digest("hex"));
 }
 
+test("sets inside meshes are conflict-free, maximal below the surface, and of closed meshes alone", () => {
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((k) => [k & 1, (k >> 1) & 1, k >> 2]);
+    const squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    const triangles = squares.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
+    const mesh = new azulejo.Mesh(corners, triangles);
+    for (const surface of ["open", "first"]) {
+        const { positions, depth, surfaceSamples, ranks } = azulejo.volumeSampleInside(mesh, { radius: 0.15, surface });
+        assert.ok(positions.every((x) => x >= 0 && x <= 1) && ranks === undefined);
+        assert.equal(surfaceSamples > 100, surface === "first");
+        assert.ok(smallest(positions, 3) >= 0.15 && depth < 0.11 * 0.15);
+        const [low, high] = [[depth, depth, depth], [1 - depth, 1 - depth, 1 - depth]];
+        assert.ok(coveringInSpace(positions, low, high, (d) => d) <= 0.15 + 1e-6);
+    }
+    const counted = azulejo.volumeSampleInside(mesh, { count: 150, order: "progressive", tolerance: 0.1 });
+    assert.deepEqual([counted.positions.length, counted.ranks.length], [450, 150]);
+    const open = new azulejo.Mesh(corners, triangles.slice(3));
+    assert.throws(() => azulejo.volumeSampleInside(open, { radius: 0.15 }), /mesh: is not closed/);
+    assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, surface: "last" }), /surface: last/);
+    assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, tolerance: 1 }), /tolerance: /);
+});
+
 test("sets of boxes are conflict-free, maximal, exact in number and nested in progressive order", () => {
     const unit = [[0, 0, 0], [1, 1, 1]];
     const torus = azulejo.volumeSample({ radius: 0.15, seed: 3 });

@@ -102,7 +102,7 @@ macro_rules! arguments {
 
 // For `from_py_with`: a function for each argument, which knows its name.
 arguments! {
-    real: f64 = named => factor leaf_size radius reach width;
+    real: f64 = named => factor leaf_size radius reach tolerance width;
     amount: f64 = or_zero => count radius;
     whole: i128 = named => bins count frequency_stride iterations max_iterations probes seed size threads;
     number: i128 = or_zero => count;

@@ -157,6 +157,12 @@ impl Points {
         })
     }
 
+    /// Samples inside a mesh with this origin.
+    pub(crate) fn solid(py: Python<'_>, samples: azulejo_core::Points<3>, origin: [f64; 3]) -> PyResult<Self> {
+        let surface = Self::surface(py, samples, origin)?;
+        Ok(Self { normals: None, triangles: None, barycentrics: None, ..surface })
+    }
+
     /// Samples of a call whose radius varies: an empty set has radii too.
     pub(crate) fn adaptive(py: Python<'_>, mut samples: azulejo_core::Points<3>, origin: [f64; 3]) -> PyResult<Self> {
         let radii = std::mem::take(&mut samples.radii);

@@ -1,9 +1,11 @@
-//! `azulejo volume`: maximal Poisson-disk sets of a cuboid.
+//! `azulejo volume`: maximal Poisson-disk sets of a cuboid, or of the inside of a mesh.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use azulejo::volume::{Amount, Options, sample};
-use azulejo::{Context, Result};
+use azulejo::mesh::Mesh;
+use azulejo::volume::{Amount, InsideOptions, Options, Surface, sample, sample_inside};
+use azulejo::{Boundary, Context, Domain, Error, Points, Result};
 use clap::Args;
 
 use super::around::Around;
@@ -34,6 +36,18 @@ pub struct Volume {
     common: Common,
     #[command(flatten)]
     domain: CuboidArgs,
+    /// A closed mesh, OBJ, PLY or STL, whose inside is sampled in place of a cuboid. The box around it is the domain of the
+    /// output.
+    #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
+    inside: Option<PathBuf>,
+    /// A maximal set of the surface of the mesh comes first, and the inside is filled around it. It takes a radius, and any
+    /// order.
+    #[arg(long, requires = "inside", conflicts_with = "count")]
+    surface_first: bool,
+    /// Places inside the mesh may stay open that are nearer to its surface than sqrt(3) times this many radii: 1/256 to 1/2
+    /// [default: 0.0625].
+    #[arg(long, value_name = "T", requires = "inside", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
     /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ and raw
     /// floats.
     #[arg(long, value_enum, default_value = "any")]
@@ -52,39 +66,91 @@ pub struct Volume {
     clearance: Option<f64>,
 }
 
+/// The samples, their domain, and the text that is reported about them.
+struct Made {
+    samples: Points<3>,
+    domain: Domain<3>,
+    /// The radius and the covering radius.
+    radii: [f64; 2],
+    about: String,
+    seconds: f64,
+}
+
 impl Volume {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = self.common.destination.open_points()?;
         let around = self.around()?;
-        let domain = self.domain.or_unit();
-        let amount = match self.density.count {
+        let made = match &self.inside {
+            Some(path) => self.inside(context, path, &around),
+            None => self.cuboid(context, &around),
+        };
+        let Made { samples, domain, radii: [radius, covering_radius], about, seconds } =
+            made.map_err(|error| match &self.given {
+                Some(path) => blame(path, error),
+                None => error,
+            })?;
+        let table = PointTable { ranks: &samples.ranks, class_radii: &[radius], ..PointTable::of(&samples.positions) };
+        output.write_points(&domain, &table)?;
+        let covered = if covering_radius > radius {
+            format!(", covered within {}", rounded(covering_radius, 4))
+        } else {
+            String::new()
+        };
+        let about = format!("radius {}{covered}{about}", rounded(radius, 4));
+        report(&output.output, samples.len(), &about, seconds);
+        Ok(())
+    }
+
+    fn amount(&self) -> Amount {
+        match self.density.count {
             Some(count) => Amount::Count(count),
             None => Amount::Radius(self.density.radius.unwrap_or(f64::NAN)),
-        };
-        let options = Options::of(amount);
+        }
+    }
+
+    fn cuboid(&self, context: &Context, around: &Around<3>) -> Result<Made> {
+        let (options, domain) = (Options::of(self.amount()), self.domain.or_unit());
         let options = options
             .domain(domain)
             .seed(self.common.seed)
             .order(self.order.into())
             .quotient(self.quotient.unwrap_or(options.quotient))
             .given(around.given());
-        let made = watched("volume", |progress| sample(context, &options, Some(progress)));
-        let (samples, done) = made.map_err(|error| match &self.given {
-            Some(path) => blame(path, error),
-            None => error,
+        let (samples, done) = watched("volume", |progress| sample(context, &options, Some(progress)))?;
+        let (radii, about) = ([done.radius, done.covering_radius], String::new());
+        Ok(Made { samples, domain, radii, about, seconds: done.seconds })
+    }
+
+    fn inside(&self, context: &Context, path: &Path, around: &Around<3>) -> Result<Made> {
+        let mesh = Arc::new(Mesh::load(path)?);
+        if mesh.origin() != [0.0; 3] {
+            let reason =
+                "coordinates so far from the origin that floats would displace its samples: move it there first";
+            return Err(Error::Format { path: path.to_owned(), reason: reason.to_owned() });
+        }
+        let options = InsideOptions::of(self.amount());
+        let options = options
+            .surface(if self.surface_first { Surface::First } else { Surface::Open })
+            .tolerance(self.tolerance.unwrap_or(options.tolerance))
+            .seed(self.common.seed)
+            .order(self.order.into())
+            .quotient(self.quotient.unwrap_or(options.quotient))
+            .given(around.given());
+        let made = watched("volume", |progress| sample_inside(context, &mesh, &options, Some(progress)));
+        let (samples, done) = made.map_err(|error| match error {
+            Error::InvalidArgument { argument: "mesh", reason } => Error::Format { path: path.to_owned(), reason },
+            other => other,
         })?;
-        output.write_points(
-            &domain,
-            &PointTable { ranks: &samples.ranks, class_radii: &[done.radius], ..PointTable::of(&samples.positions) },
-        )?;
-        let covered = if done.covering_radius > done.radius {
-            format!(", covered within {}", rounded(done.covering_radius, 4))
-        } else {
-            String::new()
+        let (low, high) = mesh.bounds();
+        let [min, max] = [low, high].map(|corner| corner.map(f64::from));
+        let domain = Domain { min, max, boundary: Boundary::Bounded };
+        let surface = match done.surface_samples {
+            0 => String::new(),
+            count => format!(", {count} on the surface"),
         };
-        let about = format!("radius {}{covered}", rounded(done.radius, 4));
-        report(&output.output, samples.len(), &about, done.seconds);
-        Ok(())
+        let about = format!("{surface}, open up to {} below the surface", rounded(done.depth, 4));
+        let radii = [done.radius, done.covering_radius];
+        Ok(Made { samples, domain, radii, about, seconds: done.seconds })
     }
 
     /// The given points.

@@ -9,6 +9,7 @@ use azulejo_core::kdrt;
 
 use crate::adaptive::azulejo_psp_adaptive_options_init;
 use crate::dcr::azulejo_dcr_options_init;
+use crate::inside::azulejo_volume_inside_options_init;
 use crate::kdrt::azulejo_kdrt_options_init;
 use crate::mask::azulejo_mask_options_init;
 use crate::maximal::azulejo_maximal_options_init;
@@ -164,7 +165,8 @@ fn written(name: &str) -> Vec<u8> {
         "azulejo_dcr_surface_options": azulejo_dcr_surface_options_init,
         "azulejo_thin_options": azulejo_thin_options_init,
         "azulejo_mask_options": azulejo_mask_options_init,
-        "azulejo_volume_options": azulejo_volume_options_init
+        "azulejo_volume_options": azulejo_volume_options_init,
+        "azulejo_volume_inside_options": azulejo_volume_inside_options_init
     }
 }
 
@@ -341,7 +343,7 @@ fn the_constants_of_the_core_are_those_of_the_page() {
         assert_eq!(row.range, format!("{} to {}", kdrt::QUOTIENTS.start(), kdrt::QUOTIENTS.end()));
         assert!(row.default == "2^(1/8)" && (kdrt::DEFAULT_QUOTIENT - 2_f64.sqrt().sqrt().sqrt()).abs() < 1e-15);
     }
-    assert_eq!((of("leaf_size").len(), of("quotient").len()), (1, 4));
+    assert_eq!((of("leaf_size").len(), of("quotient").len()), (1, 5));
 }
 
 #[test]

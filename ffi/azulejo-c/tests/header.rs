@@ -42,7 +42,11 @@ const HEADERS: [Header; 8] = [
         page: "PSP: maximal Poisson-disk sets on triangle meshes, also with a radius that varies.",
         sources: &["psp_report", "psp", "psp_classes", "psp_edit", "adaptive", "mesh_density"],
     },
-    Header { name: "volume", page: "Volumes: maximal Poisson-disk sets of cuboids.", sources: &["volume"] },
+    Header {
+        name: "volume",
+        page: "Volumes: maximal Poisson-disk sets of cuboids and inside meshes.",
+        sources: &["volume", "inside"],
+    },
     Header {
         name: "dcr",
         page: "DCR: relaxation of point sets in the plane, with a density, and on meshes.",

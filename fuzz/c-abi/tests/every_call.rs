@@ -11,6 +11,7 @@ use azulejo_c::classes::*;
 use azulejo_c::context::*;
 use azulejo_c::dcr::*;
 use azulejo_c::domain::*;
+use azulejo_c::inside::*;
 use azulejo_c::kdrt::*;
 use azulejo_c::kdrt_classes::*;
 use azulejo_c::kept::*;
@@ -355,6 +356,29 @@ fn surfaces() {
         assert_eq!((positions.read(), positions.add(1).read()), ([1.0, 1.5, 1.0], [2.0, 2.0, 1.0]));
         assert_eq!(read_and_free(points), 2);
         drop(deformed);
+    }
+    // SAFETY: the arrays have the given lengths.
+    unsafe {
+        let (points, mut inside) = ([0.25f32, 0.25, 0.0, 9.0, 9.0, 9.0], [7u8; 2]);
+        assert_eq!(mesh.read(azulejo_mesh_is_closed), 0);
+        let status = azulejo_mesh_contains(context.get(), mesh.get(), points.as_ptr(), 2, inside.as_mut_ptr());
+        assert_eq!((status, inside[1]), (AZULEJO_OK, 0));
+        let mut options = defaults(azulejo_volume_inside_options_init);
+        let mut report = defaults(azulejo_volume_inside_report_init);
+        (options.radius, options.surface) = (0.4, AZULEJO_SURFACE_FIRST);
+        let (handle, open) = (context.get(), mesh.get());
+        let refused =
+            azulejo_volume_sample_inside(handle, open, &options, &mut std::ptr::null_mut(), std::ptr::null_mut());
+        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
+        let corners = [[0.0f32, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
+        let faces = [[0u32, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let solid = made(|out| azulejo_mesh_create(corners.as_ptr().cast(), 4, 12, faces.as_ptr().cast(), 4, out));
+        assert_eq!(solid.read(azulejo_mesh_is_closed), 1);
+        let count = read_and_free(made(|out| {
+            azulejo_volume_sample_inside(handle, solid.get(), &options, out, &raw mut report)
+        }));
+        assert!(report.depth > 0.0 && report.samples > report.surface_samples && report.surface_samples > 10);
+        assert_eq!(report.samples, count as u64);
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);

@@ -20,6 +20,13 @@ pub fn torus() -> Soup {
     fine_torus(40, 20)
 }
 
+/// The same with coordinates on a lattice of 2^-18, so that the seams of a shape meet.
+pub fn welded((mut positions, triangles): Soup) -> Soup {
+    let scale = (1 << 18) as f32;
+    positions.iter_mut().for_each(|p| *p = p.map(|x| (x * scale).round() / scale + 0.0));
+    (positions, triangles)
+}
+
 /// The torus, of as many quads around the hole and around the tube.
 pub fn fine_torus(around_hole: u32, around_tube: u32) -> Soup {
     shapes::torus(around_hole, around_tube)

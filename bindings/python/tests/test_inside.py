@@ -1,0 +1,70 @@
+"""Sets of the inside of meshes, against every pair and many places."""
+
+import numpy as np
+import pytest
+
+import azulejo
+from naive import farthest, smallest_distance
+
+CORNERS = np.array([[x, y, z] for z in (0, 2) for y in (0, 1) for x in (0, 1)], np.float32)
+SQUARES = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+FACES = np.array([f for a, b, c, d in SQUARES for f in ([a, b, c], [a, c, d])], np.uint32)
+BOX = (CORNERS, FACES)
+
+
+def deep(depth, steps=16):
+    """Places of the box that are deeper than the report says can be open."""
+    axes = [np.linspace(depth, side - depth, steps) for side in (1, 1, 2)]
+    return np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
+
+
+@pytest.mark.parametrize("surface", ["open", "first"])
+def test_a_set_lies_inside_and_is_maximal(surface):
+    points = azulejo.volume_sample_inside(BOX, 0.15, seed=4, surface=surface)
+    positions, report = points.positions, points.report
+    assert (positions >= 0).all() and (positions <= CORNERS[7]).all()
+    assert smallest_distance(positions) >= 0.15
+    assert 0 < report.depth < 0.11 * 0.15
+    assert farthest(deep(report.depth), positions) <= 0.15 + 1e-5
+    assert (report.radius, report.covering_radius) == (0.15, 0.15)
+    assert points.normals is None and points.triangles is None and points.domain_min is None
+    first, rest = np.split(positions, [report.surface_samples])
+    on_surface = lambda p: np.isclose(p, 0).any(axis=1) | np.isclose(p, CORNERS[7]).any(axis=1)
+    assert on_surface(first).all() and (len(first) > 100) == (surface == "first")
+    assert not on_surface(rest).any() and len(rest) > 200
+
+
+def test_a_gap_would_be_noticed():
+    points = azulejo.volume_sample_inside(BOX, 0.15)
+    inner = ((points.positions > 0.3) & (points.positions < 0.7)).all(axis=1)
+    positions = np.delete(points.positions, np.flatnonzero(inner)[0], axis=0)
+    assert farthest(deep(points.report.depth, 40), positions) > 0.15 + 1e-5
+
+
+def test_counts_orders_and_given_samples():
+    points = azulejo.volume_sample_inside(BOX, count=200, order="progressive", quotient=1.2)
+    assert len(points) == 200 and points.ranks.shape == (200,)
+    given = points.positions[:10]
+    around = azulejo.volume_sample_inside(BOX, 0.1, given_positions=given, tolerance=0.03)
+    assert smallest_distance(np.concatenate([given, around.positions])) >= 0.1
+
+
+def test_a_far_mesh_keeps_its_origin():
+    far = azulejo.volume_sample_inside((CORNERS + np.array([1e6, 0.0, -1e6]), FACES), 0.2)
+    moved = far.positions - np.array([1e6, 0.0, -1e6])
+    assert far.positions.dtype == np.float64 and ((moved >= 0) & (moved <= CORNERS[7])).all()
+
+
+@pytest.mark.parametrize(
+    "wrong, argument",
+    [
+        (dict(tolerance=0.7), "tolerance"),
+        (dict(surface="second"), "surface"),
+        (dict(surface="first", order="progressive"), "surface"),
+        (dict(radius=-0.1), "radius"),
+        (dict(mesh=(CORNERS, FACES[1:])), "mesh"),
+    ],
+)
+def test_bad_arguments_are_named(wrong, argument):
+    with pytest.raises(ValueError, match=f"^{argument}: "):
+        azulejo.volume_sample_inside(**{"mesh": BOX, "radius": 0.1, **wrong})

@@ -1,0 +1,220 @@
+//! The generalised winding number of any triangles.
+//!
+//! Source: Barill et al. 2018, "Fast winding numbers for soups and clouds". The winding number at a point is the solid angle of
+//! all triangles seen from there, over 4π: 1 inside of a closed surface whose triangles face outwards, 0 outside, and between
+//! the two near holes. Triangles of a node that is far away count by its dipole and the first moment of that (their order 1).
+//!
+//! Departures: the boundary of each part of the surface is closed by *caps*, triangles with one corner in common. The winding
+//! number of the surface with its caps is the sum of crossings of a ray; only that of the caps, which is taken away, asks a tree
+//! of angles. So a large mesh with small holes costs little more than a closed one, and loose triangles are their own caps.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::interior::crossing::side_of_plane;
+use crate::interior::tree::{CHILDREN, Tree};
+use crate::math::atan2;
+use crate::mesh::{Mesh, exact};
+
+/// A node is far if it is this many times farther than its radius.
+const FAR: f64 = 3.0;
+
+/// The whole sphere.
+const SPHERE: f64 = 2.0 * TAU;
+
+/// The triangles of a node.
+#[derive(Clone, Debug, Default)]
+struct Moments {
+    /// The centroid by areas.
+    centre: DVec3,
+    /// No triangle reaches farther from the centre.
+    radius: f64,
+    area: f64,
+    /// The sum of the triangles' areas along their normals.
+    dipole: DVec3,
+    /// The columns of the sum of areas along normals by the distances of centroids from the centre: one column per axis of the
+    /// normal.
+    first: [DVec3; 3],
+}
+
+/// The caps of a surface by their angles.
+#[derive(Debug)]
+pub struct Caps {
+    pub tree: Tree,
+    /// The moments of the tree's nodes, by its levels.
+    moments: Vec<Vec<Moments>>,
+}
+
+impl Caps {
+    /// The caps of the boundary edges of a mesh (`sides.rs`).
+    pub fn new(mesh: &Mesh, boundary: &[[u32; 2]]) -> Self {
+        // Edges that are connected have the first vertex of any in common.
+        let mut parents = BTreeMap::new();
+        for &[from, to] in boundary {
+            let [from, to] = [root(&mut parents, from), root(&mut parents, to)];
+            parents.insert(from.max(to), from.min(to));
+        }
+        let place = |vertex: u32| mesh.positions()[vertex as usize];
+        let cap = |&[from, to]: &[u32; 2]| [root(&mut parents, from), from, to].map(place);
+        Self::of(&boundary.iter().map(cap).collect::<Vec<_>>())
+    }
+
+    /// Triangles as caps.
+    fn of(triangles: &[[[f32; 3]; 3]]) -> Self {
+        let (tree, _) = Tree::new(triangles);
+        let mut moments: Vec<Vec<Moments>> = Vec::new();
+        for level in 0..tree.levels() {
+            let below = moments.last();
+            let node = |node: usize| {
+                let children = |count: usize| CHILDREN * node..(CHILDREN * (node + 1)).min(count);
+                let of: Vec<Moments> = match below {
+                    None => children(tree.corners.len()).map(|t| of_triangle(&tree.corners[t])).collect(),
+                    Some(below) => below[children(below.len())].to_vec(),
+                };
+                sum(&of, tree.node_box(level, node))
+            };
+            let nodes = (0..tree.nodes(level)).map(node).collect();
+            moments.push(nodes);
+        }
+        Self { tree, moments }
+    }
+
+    /// The winding number of the caps at a point.
+    pub fn at(&self, place: [f32; 3]) -> f64 {
+        let (point, mut angle) = (exact(place), 0.0);
+        let mut stack = vec![(self.moments.len() - 1, 0)];
+        while let Some((level, node)) = stack.pop() {
+            let moments = &self.moments[level][node];
+            let away = moments.centre - point;
+            let distance = away.length();
+            if distance > FAR * moments.radius {
+                angle += moments.angle(away, distance);
+            } else if level > 0 {
+                stack.extend(
+                    (CHILDREN * node..(CHILDREN * (node + 1)).min(self.moments[level - 1].len()))
+                        .map(|n| (level - 1, n)),
+                );
+            } else {
+                for triangle in CHILDREN * node..(CHILDREN * (node + 1)).min(self.tree.corners.len()) {
+                    angle += solid_angle(place, &self.tree.corners[triangle]);
+                }
+            }
+        }
+        angle / SPHERE
+    }
+}
+
+impl Moments {
+    /// The solid angle from a point far away; `away` leads from there to the centre.
+    fn angle(&self, away: DVec3, distance: f64) -> f64 {
+        let cubed = distance * distance * distance;
+        // The derivatives of away / |away|³ along x by the normal's axis.
+        let [x, y, z] = self.first;
+        let along = x.dot(away) * away.x + y.dot(away) * away.y + z.dot(away) * away.z;
+        (self.dipole.dot(away) + x.x + y.y + z.z - 3.0 * along / (distance * distance)) / cubed
+    }
+}
+
+fn of_triangle(corners: &[[f32; 3]; 3]) -> Moments {
+    let [a, b, c] = corners.map(exact);
+    let dipole = (b - a).cross(c - a) / 2.0;
+    Moments { centre: (a + b + c) / 3.0, area: dipole.length(), dipole, ..Moments::default() }
+}
+
+/// The moments of several together, in a box.
+fn sum(parts: &[Moments], hull: [[f32; 3]; 2]) -> Moments {
+    let area: f64 = parts.iter().map(|part| part.area).sum();
+    let [low, high] = hull.map(exact);
+    let weighted = parts.iter().map(|part| part.centre * part.area).sum::<DVec3>();
+    let centre = if area > 0.0 { weighted / area } else { (low + high) / 2.0 };
+    let mut total = Moments { centre, area, ..Moments::default() };
+    for part in parts {
+        let offset = part.centre - centre;
+        total.dipole += part.dipole;
+        for axis in 0..3 {
+            total.first[axis] += part.first[axis] + offset * part.dipole[axis];
+        }
+    }
+    total.radius = (centre - low).abs().max((centre - high).abs()).length();
+    total
+}
+
+/// The solid angle of a triangle seen from a point: van Oosterom and Strackee 1983. Its sign is that of the side on which the
+/// point lies as crossings see it, so that what is taken away beside a cap is what was added.
+fn solid_angle(point: [f32; 3], corners: &[[f32; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| exact(corner) - exact(point));
+    let lengths = [a.length(), b.length(), c.length()];
+    let volume = a.dot(b.cross(c)).abs();
+    let cosine =
+        lengths[0] * lengths[1] * lengths[2] + a.dot(b) * lengths[2] + b.dot(c) * lengths[0] + c.dot(a) * lengths[1];
+    -f64::from(side_of_plane(point, corners)) * 2.0 * atan2(volume, cosine)
+}
+
+/// The first vertex of all that are connected with one.
+fn root(parents: &mut BTreeMap<u32, u32>, mut vertex: u32) -> u32 {
+    while let Some(&parent) = parents.get(&vertex)
+        && parent != vertex
+    {
+        let above = parents.get(&parent).copied().unwrap_or(parent);
+        parents.insert(vertex, above);
+        vertex = parent;
+    }
+    vertex
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Draw, Rng};
+
+    /// A sphere of radius 1 from the south pole up to a height, of equal steps of the angles.
+    fn bowl(steps: u32, height: f64) -> Vec<[[f32; 3]; 3]> {
+        let end = (height + 1.0).clamp(0.0, 2.0);
+        let place = |i: u32, j: u32| {
+            let (z, turn) =
+                (end * f64::from(j) / f64::from(steps) - 1.0, TAU * f64::from(i % steps) / f64::from(steps));
+            let across = (1.0 - z * z).max(0.0).sqrt();
+            [across * turn.cos(), across * turn.sin(), z].map(|x| x as f32)
+        };
+        let quad = |i: u32, j: u32| {
+            let [a, b, c, d] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        };
+        (0..steps * steps).flat_map(|n| quad(n % steps, n / steps)).collect()
+    }
+
+    fn soup(count: u32) -> Vec<[[f32; 3]; 3]> {
+        let mut rng = Rng::at(7, Draw::Probe, &[]);
+        let mut place = |size: f32| [0; 3].map(|_: i32| size * (rng.unit() as f32 - 0.5));
+        let triangle = |_| {
+            let centre = place(2.0);
+            [0; 3].map(|_: i32| std::array::from_fn(|k| centre[k] + place(0.3)[k]))
+        };
+        (0..count).map(triangle).collect()
+    }
+
+    fn all(triangles: &[[[f32; 3]; 3]], point: [f32; 3]) -> f64 {
+        let angle = |corners: &[[f32; 3]; 3]| solid_angle(point, corners);
+        triangles.iter().map(angle).sum::<f64>() / SPHERE
+    }
+
+    #[test]
+    fn winding_numbers_are_the_sums_of_all_solid_angles() {
+        let mut rng = Rng::at(1, Draw::Probe, &[]);
+        for (triangles, error) in
+            [(bowl(30, 1.0), 0.015), (bowl(30, 0.3), 0.01), (soup(60), 0.001), (soup(2000), 0.002)]
+        {
+            let caps = Caps::of(&triangles);
+            let mut worst: f64 = 0.0;
+            for _ in 0..400 {
+                let point = [0; 3].map(|_: i32| 3.0 * rng.unit() as f32 - 1.5);
+                worst = worst.max((caps.at(point) - all(&triangles, point)).abs());
+            }
+            assert!(worst < error, "{worst}");
+        }
+        let sphere = bowl(40, 1.0);
+        assert!((all(&sphere, [0.1, 0.2, 0.3]) - 1.0).abs() < 1e-6 && all(&sphere, [1.0, 1.0, 0.3]).abs() < 1e-6);
+    }
+}

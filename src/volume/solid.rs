@@ -1,0 +1,105 @@
+//! Sets of the inside of a mesh.
+
+use std::sync::Arc;
+
+use crate::error::{Error, Result};
+use crate::given::Given;
+use crate::host::Stopwatch;
+use crate::job::{Context, Progress};
+use crate::mesh::Mesh;
+use crate::points::Points;
+use crate::psp;
+use crate::volume::body::Body;
+use crate::volume::inside_options::InsideOptions;
+use crate::volume::{Options, fill};
+
+/// The share of the work for samples of the surface.
+const OF_SURFACE: f64 = 0.2;
+
+/// The report of [`sample_inside`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct InsideReport {
+    /// No two samples are nearer: the radius of the options, or that of the set of a count.
+    pub radius: f64,
+    /// No place inside that is deeper than `depth` is farther from all samples, and outside of all given ones, up to the tolerance
+    /// of [`sample`](super::sample): the radius, or of a count up to 1.1 times it, in progressive order the quotient times it.
+    pub covering_radius: f64,
+    /// The greatest depth at which places can be open: sqrt(3) times the tolerance and a few float spacings.
+    pub depth: f64,
+    /// The number of samples of the surface, which come first.
+    pub surface_samples: usize,
+    /// Wall time in seconds.
+    pub seconds: f64,
+}
+
+/// A maximal Poisson-disk set of the inside of a closed mesh ([`Mesh::is_closed`]).
+///
+/// * Inside: each sample is, without rounding, by [`Interior::contains`](crate::Interior::contains), but those of the surface.
+/// * Conflict-free: all distances of the returned floats are at least `radius`, in `f64`, without tolerance.
+/// * Maximal: no place inside is farther than `radius` + 7 float spacings at the mesh's largest coordinate from all samples, unless
+///   it is nearer to the surface than the report's `depth`.
+///
+/// About [`MAXIMAL_DENSITY_IN_SPACE`](crate::MAXIMAL_DENSITY_IN_SPACE) samples per cubed radius, and more beside the surface. All else is as for
+/// [`sample`](super::sample): order, count, ranks, given samples. The prefix of a progressive set leaves places open at the surface
+/// that are less deep than sqrt(3) tolerances of its own covering radius.
+///
+/// O(n) for n samples and O(t log t) for t triangles, the latter once for a mesh: [`Interior::of`](crate::Interior::of).
+///
+/// # Errors
+/// [`Error::InvalidArgument`] for a `mesh` that is not closed and for an option out of range, also for [`Surface::First`] with a count or in progressive order, and for
+/// a count where there is no place inside; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+pub fn sample_inside(
+    context: &Context,
+    mesh: &Arc<Mesh>,
+    options: &InsideOptions,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, InsideReport)> {
+    let stopwatch = Stopwatch::start();
+    options.check()?;
+    check_closed(mesh)?;
+    let (surface_radius, mut positions) = (options.surface_radius()?, Vec::new());
+    let &InsideOptions { amount, tolerance, seed, order, quotient, given, .. } = options;
+    if let Some(radius) = surface_radius {
+        let options = psp::Options::new(radius).seed(seed).given(given);
+        let part = progress.map(|progress| move |share: f64| progress(OF_SURFACE * share));
+        let part = part.as_ref().map(|part| part as &Progress);
+        positions = psp::sample(context, mesh, &options, part)?.0.positions;
+    }
+    let surface_samples = positions.len();
+    let (all, clearances) = beside(&given, &positions, surface_radius.unwrap_or_default());
+    let around = Given { positions: &all, clearances: clearances.as_deref() };
+    let around = if surface_samples == 0 { given } else { around };
+
+    let body = Body::new(mesh, tolerance);
+    let options = Options::of(amount).domain(body.domain).seed(seed).order(order).quotient(quotient).given(around);
+    let from = surface_radius.map_or(0.0, |_| OF_SURFACE);
+    let rest = progress.map(|progress| move |share: f64| progress(from + (1.0 - from) * share));
+    let rest = rest.as_ref().map(|rest| rest as &Progress);
+    let (mut points, [radius, covering_radius]) = fill(context, &options, Some(&body), rest)?;
+    if surface_samples > 0 {
+        positions.append(&mut points.positions);
+        points.positions = positions;
+    }
+    let (depth, seconds) = (body.depth(covering_radius), stopwatch.seconds());
+    Ok((points, InsideReport { radius, covering_radius, depth, surface_samples, seconds }))
+}
+
+/// Refuses a mesh that has no certain inside.
+fn check_closed(mesh: &Mesh) -> Result<()> {
+    match mesh.sides().odd_edges {
+        0 => Ok(()),
+        odd => {
+            Err(Error::invalid("mesh", format!("is not closed: an odd number of triangles shares {odd} of its edges")))
+        }
+    }
+}
+
+/// Given samples with those of the surface, and the clearances of all, if some are not the radius.
+fn beside(given: &Given<3>, surface: &[[f32; 3]], radius: f64) -> (Vec<[f32; 3]>, Option<Vec<f64>>) {
+    if surface.is_empty() {
+        return Default::default();
+    }
+    let clearances = given.clearances.map(|clearances| [clearances, &vec![radius; surface.len()]].concat());
+    ([given.positions, surface].concat(), clearances)
+}
