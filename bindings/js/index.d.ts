@@ -360,6 +360,28 @@ export function volumeSampleInside(mesh: Mesh, options: VolumeInsideOptions): {
     surfaceSamples: number;
 };
 
+export interface MaskOptions {
+    /** The pixels along x: 2 to 1,024, and up to 64 with a depth above 1. Required. */
+    width: number;
+    /** The pixels along y: 2 to 1,024, and up to 64 with a depth above 1. Required. */
+    height: number;
+    /** The pixels along z: 1, the default, is a mask of the plane; up to 64, one of space. */
+    depth?: number;
+    /** The number of independent masks: 1 to 64; default 1. */
+    channels?: number;
+    /** Another seed gives another mask. Default 0. */
+    seed?: Seed;
+    /** The standard deviation, in pixels, of the Gaussian by which voids and clusters are found: 0.5 to 4; default 1.5. */
+    sigma?: number;
+}
+
+/**
+ * The ranks of a blue-noise mask by void and cluster, a torus of pixels: channel by channel, in it x first, then y, then z. Each
+ * rank from 0 to the number of pixels - 1 occurs once in a channel. An image is dithered by comparing it with
+ * (rank + 0.5) / pixels, the mask repeated like a tile.
+ */
+export function maskCreate(options: MaskOptions): Uint32Array;
+
 export interface RelaxOptions extends Domain {
     /** `delaunay`, the default: neighbours keep their distance and close holes. `nearest`: they only repel. */
     neighbourhood?: "delaunay" | "nearest";

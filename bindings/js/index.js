@@ -52,6 +52,7 @@ const INSIDE = {
     radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT,
     givenPositions: null, givenClearances: null,
 };
+const MASK = { width: 0, height: 0, depth: 1, channels: 1, seed: 0, sigma: 1.5 };
 const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
 const THIN = { radius: 0, count: 0, order: "any", seed: 0 };
@@ -352,6 +353,12 @@ export function volumeSampleInside(mesh, options) {
         const [found, coveringRadius, depth, surfaceSamples] = report;
         return withRanks({ positions, radius: found, coveringRadius, depth, surfaceSamples }, ranks);
     });
+}
+
+export function maskCreate(options) {
+    options = withDefaults(MASK, options);
+    const sizes = ["width", "height", "depth", "channels"].map((name) => whole(name, options[name]));
+    return calling((call) => call.make("mask_create", [...sizes, seedOf(options), options.sigma], Uint32Array)[0]);
 }
 
 function density(of) {

@@ -519,6 +519,17 @@ def volume_sample_inside(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def mask_create(
+    width: SupportsIndex,
+    height: SupportsIndex,
+    *,
+    depth: SupportsIndex = 1,
+    channels: SupportsIndex = 1,
+    seed: SupportsIndex = 0,
+    sigma: SupportsFloat = 1.5,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> NDArray[np.uint32]: ...
 def kdrt_merge(
     pieces: Sequence[tuple[ArrayLike, _Numbers, _Numbers]],
     radius: SupportsFloat,

@@ -7,6 +7,7 @@ mod analysis;
 mod answer;
 mod edit;
 mod inside;
+mod mask;
 mod memory;
 mod plane;
 mod surface;

@@ -591,3 +591,16 @@ test("errors name the argument, and leave the module usable", () => {
     throws(() => azulejo.thin([0, 0], 2), "radius");
     assert.ok(azulejo.kdrtSample({ radius: 0.1 }).positions.length > 0);
 });
+
+test("masks are permutations, the same as everywhere, and refused by the names of their options", () => {
+    const mask = azulejo.maskCreate({ width: 20, height: 12, channels: 2, seed: 4 });
+    assert.equal(mask.length, 2 * 240);
+    for (const channel of [mask.slice(0, 240), mask.slice(240)]) {
+        assert.deepEqual([...channel].sort((a, b) => a - b), [...Array(240).keys()]);
+    }
+    assert.deepEqual(azulejo.maskCreate({ width: 20, height: 12, seed: 4n }), mask.slice(0, 240));
+    for (const [name, value] of [["width", 1], ["depth", 65], ["channels", 0], ["sigma", NaN], ["height", 1.5]]) {
+        assert.throws(() => azulejo.maskCreate({ width: 8, height: 8, [name]: value }), new RegExp(`${name}: `));
+    }
+    assert.throws(() => azulejo.maskCreate({ height: 8 }), /width: /);
+});

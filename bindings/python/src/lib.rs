@@ -10,6 +10,7 @@ mod error;
 mod frame;
 mod growing;
 mod inside;
+mod mask;
 mod mesh;
 mod plane;
 mod points;
@@ -29,9 +30,9 @@ mod watch;
 ///
 /// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample,
 /// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_classes_with_density, psp_adaptive_sample,
-/// psp_adaptive_with_density, Psp. Space: volume_sample, volume_sample_inside. Relaxation: dcr_relax, dcr_relax_classes, dcr_relax_density,
-/// dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Analysis: plane_measure, plane_coverage, mesh_coverage,
-/// Spectrum, Differences and others. Plane and Psp are sets that are edited.
+/// psp_adaptive_with_density, Psp. Space: volume_sample, volume_sample_inside. Relaxation: dcr_relax, dcr_relax_classes,
+/// dcr_relax_density, dcr_scatter, dcr_surface_relax, dcr_remesh. Clouds: thin. Pixels: mask_create. Analysis:
+/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
 ///
 /// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
 /// for any number of threads and on every machine.
@@ -63,6 +64,8 @@ mod azulejo {
     use crate::growing::Psp;
     #[pymodule_export]
     use crate::inside::{VolumeInsideReport, volume_sample_inside};
+    #[pymodule_export]
+    use crate::mask::mask_create;
     #[pymodule_export]
     use crate::mesh::{_mesh, Mesh};
     #[pymodule_export]
