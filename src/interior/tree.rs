@@ -160,7 +160,7 @@ mod tests {
         let triangle = |index: usize| {
             let size = [0.5, 0.1, 0.01][index % 3];
             let centre = [0; 3].map(|_: i32| rng.unit() as f32);
-            let flat = (rng.below(8) as usize, if index % 7 == 0 { 0.0 } else { 1.0 });
+            let flat = (rng.below(8) as usize, if index.is_multiple_of(7) { 0.0 } else { 1.0 });
             [0; 3].map(|_: i32| {
                 let mut corner = centre.map(|x| x + size * (rng.unit() as f32 - 0.5));
                 if flat.0 < 3 {

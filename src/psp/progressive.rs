@@ -325,6 +325,7 @@ impl FlatOptions<'_> {
 /// iterations; and of one of a single iteration of local projectors.
 const BYTES_PER_RANKED_SAMPLE: f64 = 202.0;
 const BYTES_PER_COUNTED_SAMPLE: f64 = 160.0;
+const BYTES_PER_PROJECTED_SAMPLE: f64 = 215.0;
 const BYTES_PER_FIRST_SAMPLE: f64 = 216.0;
 const BYTES_PER_CANDIDATE: f64 = 175.0;
 const BYTES_PER_HIT: f64 = 152.0;
@@ -409,6 +410,7 @@ fn begin_projected(
     if !psp.is_sooner_projected()? {
         return Ok(None);
     }
+    memory::require(BYTES_PER_PROJECTED_SAMPLE * count as f64, "count", &format!("{count} samples"))?;
     let mut report = Report::default();
     psp.iterate(&job.part(0.0, 0.5), 1, &mut report)?;
     psp.complete(&job.part(0.5, 1.0), &mut report)?;
