@@ -31,9 +31,9 @@ fn a_format_can_be_asked_for_whatever_the_extension() {
     assert!(fs::read_to_string(workshop.path("points.data")).unwrap().starts_with("x,y\n"));
     workshop.succeed(&["relax", "points.data", "--input-format", "csv", "--iterations", "1", "-o", "b.ply"]);
     let said = workshop.refuse(&["relax", "points.data", "-o", "c.ply"], 1);
-    assert!(said.starts_with("error: points.data: the extension names no format"), "{said}");
+    assert!(said.starts_with("error: points.data: the extension .data names no format"), "{said}");
     let said = workshop.refuse(&["plane", "--count", "100", "-o", "c.png"], 1);
-    assert!(said.starts_with("error: c.png: the extension names no format"), "{said}");
+    assert!(said.starts_with("error: c.png: the extension .png names no format"), "{said}");
     workshop.refuse(&["plane", "--count", "100", "--format", "png", "-o", "c.png"], 2);
 }
 
