@@ -10,6 +10,7 @@ import pytest
 import azulejo
 from meshes import torus
 from naive import smallest_distance
+from test_inside import BOX
 
 COLUMNS = (
     "positions local_positions origin normals interpolated_normals triangles barycentrics radii ranks classes ids"
@@ -188,6 +189,7 @@ def test_reports_are_what_their_text_says(all_sets):
     reports += [azulejo.plane_measure(xy), azulejo.plane_coverage(xy, 0.05)]
     reports.append(azulejo.Spectrum(xy, 16).measure(0.1, 0.5, 0.1))
     reports.append(azulejo.dcr_remesh(mesh(), all_sets["mesh"].triangles, all_sets["mesh"].barycentrics)[1])
+    reports.append(azulejo.volume_sample_inside(BOX, 0.2).report)
     reports.append(azulejo.kdrt_merge([(xy, (0, 0), (1, 1))], 0.05).report)
     kinds = {name for name in dir(azulejo) if name.endswith("Report")}
     assert {type(report).__name__ for report in reports} == kinds
