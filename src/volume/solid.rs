@@ -47,8 +47,9 @@ pub struct InsideReport {
 /// O(n) for n samples and O(t log t) for t triangles, the latter once for a mesh: [`Interior::of`](crate::Interior::of).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a `mesh` that is not closed and for an option out of range, also for [`Surface::First`] with a count or in progressive order, and for
-/// a count where there is no place inside; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for a `mesh` that is not closed and for an option out of range, also for
+/// [`Surface::First`](crate::volume::Surface::First) with a count or in progressive order, and for a count where there is no
+/// place inside; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
 pub fn sample_inside(
     context: &Context,
     mesh: &Arc<Mesh>,
