@@ -1184,7 +1184,7 @@ public:
         });
     }
 
-    /// An OBJ, PLY, STL or OFF file; see azulejo_mesh_load.
+    /// An OBJ, PLY, STL, OFF or GLB file; see azulejo_mesh_load.
     static Status try_load(const std::string &path, Mesh &out) {
         return detail::make(out, [&](auto **m) { return azulejo_mesh_load(path.c_str(), m); });
     }

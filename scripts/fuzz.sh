@@ -50,7 +50,7 @@ programs=$instrumented
 fewest() { # TARGET SECONDS
     case $1 in
         mesh | kinds) echo $(($2 / 2)) ;;
-        analysis | density | edits | measure | relax) echo $((25 * $2 / 10)) ;;
+        analysis | density | edits | measure | relax | volume) echo $((25 * $2 / 10)) ;;
         *) echo $((300 * $2 / 10)) ;;
     esac
 }
@@ -60,7 +60,7 @@ brief() { # TARGET
     case $1 in
         kinds) echo 30 ;;
         density) echo 60 ;;
-        analysis | edits | measure | mesh | relax) echo 200 ;;
+        analysis | edits | measure | mesh | relax | volume) echo 200 ;;
         *) echo 2000 ;;
     esac
 }

@@ -30,7 +30,7 @@ pub struct Analyze {
     input: Input,
     #[command(flatten)]
     domain: DomainArgs,
-    /// The mesh that the samples lie on: OBJ, PLY, STL or OFF.
+    /// The mesh that the samples lie on: OBJ, PLY, STL, OFF or GLB.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
     mesh: Option<PathBuf>,
     /// A radius to check the sets against: compares it with smallest distance and covering radius, and counts gaps.

@@ -471,10 +471,10 @@ fn samples_of_a_mesh_far_from_the_origin_are_written_in_its_frame() {
 #[test]
 fn a_file_of_another_format_is_said_to_be_one() {
     let workshop = Workshop::new();
-    for (name, content) in [("ball.glb", "glTF\u{2}"), ("ball.dae", "<COLLADA></COLLADA>\n")] {
+    for (name, content) in [("ball.fbx", "Kaydara FBX Binary"), ("ball.dae", "<COLLADA></COLLADA>\n")] {
         workshop.write(name, content);
         let said = workshop.refuse(&["surface", name, "--radius", "0.1", "-o", "a.ply"], 1);
-        assert_eq!(said, format!("error: {name}: holds no mesh in a format that is read: OBJ, PLY, STL, OFF\n"));
+        assert_eq!(said, format!("error: {name}: holds no mesh in a format that is read: OBJ, PLY, STL, OFF, GLB\n"));
     }
 }
 

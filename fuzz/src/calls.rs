@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 use azulejo_c::context::*;
 use azulejo_c::differences::*;
 use azulejo_c::kept::*;
+use azulejo_c::mask::*;
 use azulejo_c::mesh::*;
 use azulejo_c::plane_edit::*;
 use azulejo_c::points::*;
@@ -37,6 +38,7 @@ macro_rules! freed {
 freed!(
     azulejo_context: azulejo_context_free,
     azulejo_kdrt: azulejo_kdrt_free,
+    azulejo_mask: azulejo_mask_free,
     azulejo_mesh: azulejo_mesh_free,
     azulejo_plane: azulejo_plane_free,
     azulejo_psp: azulejo_psp_free,

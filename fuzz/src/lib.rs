@@ -15,8 +15,13 @@ pub mod plane;
 pub mod relaxation;
 pub mod surface;
 mod surface_relaxation;
+#[path = "../../tests/all/common/tolerance.rs"]
+pub mod tolerance;
 mod varying;
+#[path = "../../tests/all/common/volume_oracle.rs"]
+pub mod volume_oracle;
 
 pub use azulejo_c as c;
+use tolerance::float_spacing;
 // The oracles of the tests know the crate by this name.
 extern crate azulejo_core as azulejo;

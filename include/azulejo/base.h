@@ -288,11 +288,12 @@ azulejo_status azulejo_mesh_create(const float *positions,
                                    size_t triangle_count,
                                    azulejo_mesh **out);
 
-/// Loads a mesh from a file: Wavefront OBJ, PLY, STL (both text and binary) or OFF (text),
-/// distinguished by the extension .obj, .ply, .stl or .off, otherwise by the first bytes. Polygons
-/// become fans of triangles, in the order of the faces. Vertices keep the order of the file; STL
-/// facets have three each, which are not merged. Normals of OBJ corners (vn) and of vertices (PLY
-/// nx ny nz, NOFF) are read; a corner without one gets a zero normal (see
+/// Loads a mesh from a file: Wavefront OBJ, PLY, STL (both text and binary), OFF (text) or binary
+/// glTF, distinguished by the extension .obj, .ply, .stl, .off or .glb, otherwise by the first
+/// bytes. Polygons become fans of triangles, in the order of the faces. Vertices keep the order of
+/// the file; STL facets have three each, which are not merged. Of glTF the meshes of all nodes of
+/// the scene are read, placed as the nodes say, one after the other. Normals of corners (OBJ vn)
+/// and vertices (PLY nx ny nz, NOFF, glTF) are read; a corner without one gets a zero normal (see
 /// azulejo_mesh_with_normals). All else is ignored.
 ///
 /// Coordinates in text or doubles, so far from the origin that floats would displace them by more

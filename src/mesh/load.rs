@@ -8,12 +8,14 @@ use crate::centred::Centred;
 use crate::error::{Error, Result};
 use crate::mesh::source::{Input, Source};
 use crate::mesh::surface::Mesh;
-use crate::mesh::{obj, off, ply, stl};
+use crate::mesh::{glb, obj, off, ply, stl};
 
 impl Mesh {
-    /// Reads an OBJ, PLY, STL or OFF file: by the extension `.obj`, `.ply`, `.stl` or `.off`, otherwise by its first bytes.
+    /// Reads an OBJ, PLY, STL, OFF or binary glTF file: by the extension `.obj`, `.ply`, `.stl`, `.off` or `.glb`, otherwise by
+    /// its first bytes.
     ///
-    /// Polygons are cut into fans, in the order of the faces. Normals of corners (OBJ `vn`) and vertices (PLY `nx`, `ny`, `nz`; `NOFF`)
+    /// Polygons are cut into fans, in the order of the faces. Of glTF the meshes of all nodes of the scene are read, placed as
+    /// the nodes say, one after the other. Normals of corners (OBJ `vn`) and vertices (PLY `nx`, `ny`, `nz`; `NOFF`; glTF)
     /// are read; where a file has some, a corner without, or with one that is not finite, has the normal
     /// zero. Points, lines, materials, texture coordinates, colours and groups are ignored, as are the normals of STL
     /// facets, and STL vertices are not merged. Memory stays proportional to the size of the file, whatever its header
@@ -23,7 +25,7 @@ impl Mesh {
     /// a millionth of the mesh's size, are moved to an [origin](Mesh::origin), for which the file is read once more.
     ///
     /// A file is read block by block, in one pass, and never in memory as a whole: O(size). The exception is an OBJ
-    /// file with rare syntax, such as continued lines, or with an error; that takes longer as well.
+    /// file with rare syntax, such as continued lines, or with an error, which takes longer as well; and glTF.
     ///
     /// # Errors
     /// [`Error::Io`] where the file cannot be read (or is not a regular file), [`Error::Format`] where it is broken or
@@ -59,14 +61,16 @@ fn read(path: &Path, input: &mut dyn Input, length: u64) -> Result<Mesh> {
         Some("ply") => (ply::parse, ply::doubles),
         Some("stl") => (stl::parse, stl::doubles),
         Some("off") => (off::parse, off::doubles),
+        Some("glb" | "gltf") => (glb::parse, glb::doubles),
         _ if ply::is_likely(&mut source) => (ply::parse, ply::doubles),
+        _ if glb::is_likely(&mut source) => (glb::parse, glb::doubles),
         _ if off::is_likely(&mut source) => (off::parse, off::doubles),
         _ if stl::is_likely(&mut source) => (stl::parse, stl::doubles),
         _ => (obj::parse, obj::doubles),
     };
     let mut soup = passed(path, source, parse)?;
-    if soup.triangles.is_empty() && !matches!(extension.as_deref(), Some("obj" | "ply" | "stl" | "off")) {
-        return Err(format_error(path, "holds no mesh in a format that is read: OBJ, PLY, STL, OFF".to_owned()));
+    if soup.triangles.is_empty() && !matches!(extension.as_deref(), Some("obj" | "ply" | "stl" | "off" | "glb")) {
+        return Err(format_error(path, "holds no mesh in a format that is read: OBJ, PLY, STL, OFF, GLB".to_owned()));
     }
     let mut origin = [0.0; 3];
     if is_far(&soup.positions) {

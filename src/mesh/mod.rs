@@ -3,6 +3,7 @@
 //! Any topology is accepted: open, non-manifold, self-intersecting, duplicated and oppositely wound faces are all
 //! welcome. The requirements are checked once, here, so that no later stage meets a bad number or index.
 
+mod glb;
 mod load;
 mod obj;
 mod off;

@@ -13,7 +13,7 @@ use crate::mesh::Mesh;
 use crate::order::Order;
 use crate::points::{Points, finest_radius};
 use crate::psp::editable::{EditableSet, OnMesh};
-use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, ONE_PIECE, Surface, require_samples};
+use crate::psp::fill::{BYTES_PER_SAMPLE, FillOptions, Measures, ONE_PIECE, Surface};
 use crate::psp::fragment::Facing;
 use crate::psp::given::{GivenSamples, balls};
 use crate::psp::options::{FlatOptions, Options, ProjectionOptions, Projectors, Request, check_quotient};
@@ -161,9 +161,7 @@ impl Psp {
         if iterations == 0 || self.iterations > 0 || !self.projects {
             return Ok(());
         }
-        let radius = self.options.radius;
-        let estimate = self.measures.expected_samples(&self.mesh, radius);
-        require_samples(estimate, bytes, "radius", &format!("{radius:?} asks for"))
+        self.measures.require(&self.mesh, self.options.radius, bytes)
     }
 
     fn iterate(&mut self, job: &Job, iterations: u32, report: &mut Report) -> Result<()> {

@@ -50,6 +50,24 @@ fn binary_stl() -> Vec<u8> {
 
 const OFF: &str = "NOFF\n# a square\n4 2 5\n0 0 0 0 0 1\n1 0 0 0 0 1\n1. 1 0 0 0 1 .5\n0 1e0 -0 1 0 0\n4 0 1 2 3\n\n3 0 1 2 255 0 0\n";
 
+/// A triangle in two nodes.
+fn glb() -> Vec<u8> {
+    let document = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"children":[1],
+        "translation":[1,2,3]},{"mesh":0,"scale":[2,2,2]}],"meshes":[{"primitives":[{"indices":1,"attributes":
+        {"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],
+        "max":[1,1,0]},{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"}],"bufferViews":[{"buffer":0,
+        "byteLength":36,"byteStride":12},{"buffer":0,"byteOffset":36,"byteLength":3}],"buffers":[{"byteLength":40}]}"#;
+    let mut json = document.as_bytes().to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut arrays: Vec<u8> =
+        [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    arrays.extend([0, 1, 2, 0]);
+    let word = |number: usize| (number as u32).to_le_bytes();
+    let length = 12 + 8 + json.len() + 8 + arrays.len();
+    [b"glTF", &word(2)[..], &word(length), &word(json.len()), b"JSON", &json, &word(arrays.len()), b"BIN\0", &arrays]
+        .concat()
+}
+
 #[test]
 fn a_file_with_any_byte_changed_lost_or_doubled_is_loaded_or_refused() {
     let files = [
@@ -60,6 +78,7 @@ fn a_file_with_any_byte_changed_lost_or_doubled_is_loaded_or_refused() {
         ("a.stl", STL.as_bytes().to_vec()),
         ("a.stl", binary_stl()),
         ("a.off", OFF.as_bytes().to_vec()),
+        ("a.glb", glb()),
     ];
     let folder = tempfile::tempdir().unwrap();
     for (name, file) in files {

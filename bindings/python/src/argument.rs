@@ -1,6 +1,7 @@
 //! Arguments that are no arrays: whole numbers, and names for the constants of C.
 
 use azulejo_core::Order;
+use azulejo_core::volume::Amount;
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -140,6 +141,15 @@ pub(crate) fn one_of(radius: f64, count: i128, sides: impl IntoIterator<Item = f
         return Err(invalid("radius", reason));
     }
     Ok(())
+}
+
+/// What a radius and a count ask for, one of which is 0.
+pub(crate) fn amount_of(radius: f64, count: i128) -> PyResult<Amount> {
+    match natural("count", count)? {
+        0 => Ok(Amount::Radius(radius)),
+        _ if radius != 0.0 => Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0"))),
+        count => Ok(Amount::Count(count)),
+    }
 }
 
 /// The value that one of several names stands for.

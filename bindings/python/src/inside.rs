@@ -1,11 +1,10 @@
 //! Maximal sets of the inside of meshes.
 
-use azulejo_core::volume::{self, Amount, InsideOptions, Surface};
+use azulejo_core::volume::{self, InsideOptions, Surface};
 use pyo3::prelude::*;
 
-use crate::argument::{amount, callable, choice, maybe_real, natural, number, one_of, order, real, whole};
+use crate::argument::{amount, amount_of, callable, choice, maybe_real, natural, number, one_of, order, real, whole};
 use crate::array::GivenArrays;
-use crate::error::invalid;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::report::report;
@@ -80,15 +79,8 @@ pub(crate) fn volume_sample_inside(
 ) -> PyResult<Points> {
     let (low, high) = mesh.shared.bounds();
     one_of(radius, count, (0..3).map(|axis| f64::from(high[axis]) - f64::from(low[axis])), "mesh")?;
-    let amount = match natural("count", count)? {
-        0 => Amount::Radius(radius),
-        _ if radius != 0.0 => {
-            return Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0")));
-        }
-        count => Amount::Count(count),
-    };
     let given = GivenArrays::read(given_positions, given_clearances, mesh.shared.origin())?;
-    let request = InsideOptions::of(amount);
+    let request = InsideOptions::of(amount_of(radius, count)?);
     let request = request
         .surface(choice("surface", surface, &[("open", Surface::Open), ("first", Surface::First)])?)
         .tolerance(tolerance)

@@ -1,11 +1,10 @@
 //! Maximal sets of cuboids.
 
-use azulejo_core::volume::{self, Amount, Options};
+use azulejo_core::volume::{self, Options};
 use pyo3::prelude::*;
 
-use crate::argument::{amount, callable, maybe_real, maybe_triple, natural, number, one_of, order, whole};
+use crate::argument::{amount, amount_of, callable, maybe_real, maybe_triple, natural, number, one_of, order, whole};
 use crate::array::GivenArrays;
-use crate::error::invalid;
 use crate::frame::Frame;
 use crate::points::Points;
 use crate::report::report;
@@ -72,15 +71,8 @@ pub(crate) fn volume_sample(
 ) -> PyResult<Points> {
     let frame = Frame::new(domain_min, domain_max, boundary)?;
     one_of(radius, count, frame.domain.extent(), "domain")?;
-    let amount = match natural("count", count)? {
-        0 => Amount::Radius(radius),
-        _ if radius != 0.0 => {
-            return Err(invalid("count", format!("{count}, and radius {radius}; one of them must be 0")));
-        }
-        count => Amount::Count(count),
-    };
     let given = GivenArrays::read(given_positions, given_clearances, frame.origin)?;
-    let request = Options::of(amount);
+    let request = Options::of(amount_of(radius, count)?);
     let request = request
         .domain(frame.domain)
         .seed(natural("seed", seed)?)

@@ -32,7 +32,7 @@ const CLOSE: f32 = 13.0;
 
 #[derive(Args)]
 pub(crate) struct Surface {
-    /// The mesh: OBJ, PLY, STL or OFF.
+    /// The mesh: OBJ, PLY, STL, OFF or GLB.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
     /// The samples: a .ply, .npy, .csv, .xyz or .raw file.

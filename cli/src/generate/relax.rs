@@ -30,7 +30,7 @@ pub struct Relax {
     format: Input,
     #[command(flatten)]
     common: Common,
-    /// The mesh that the samples lie on and stay on: OBJ, PLY, STL or OFF.
+    /// The mesh that the samples lie on and stay on: OBJ, PLY, STL, OFF or GLB.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded", "neighbourhood"])]
     mesh: Option<PathBuf>,
     /// Also writes the mesh whose vertices are the relaxed samples, as PLY, and reports if it is closed, its Euler

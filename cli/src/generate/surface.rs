@@ -50,7 +50,7 @@ const NOT_OF_CLASSES: [&str; 5] = ["iterations", "no_fill", "projectors", "prior
 
 #[derive(Args)]
 pub struct Surface {
-    /// The mesh: OBJ, PLY, STL or OFF.
+    /// The mesh: OBJ, PLY, STL, OFF or GLB.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
     #[command(flatten)]

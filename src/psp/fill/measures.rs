@@ -1,5 +1,4 @@
-//! Measures of a mesh that a fill needs for any radius: areas, lengths, and balls around clusters of triangles; and the
-//! number of samples that follows from them before any work is done.
+//! Measures of a mesh that a fill needs for any radius: areas, lengths, and balls around clusters of triangles.
 //!
 //! A *cluster* is a run of sixteen consecutive triangles of the mesh. If one sample covers the ball around a cluster, a
 //! pass need not read its triangles, and if the ball lies in a cube, all of them do.
@@ -15,15 +14,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::Vec3A;
 
-use crate::error::{Error, Result};
-use crate::given::Given;
+use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::math::rounded_up;
-use crate::memory;
 use crate::mesh::{Mesh, exact};
-use crate::points::{MAXIMAL_DENSITY, check_radius, check_resolution};
 use crate::psp::fill::extent::Extent;
-use crate::psp::given;
 use crate::simd::{Lanes, Level, Work, run};
 
 /// Triangles in a cluster. The first darts pass more clusters if these are smaller; larger ones need less memory.
@@ -179,53 +174,10 @@ impl Measures {
         self.balls.made.get().map_or(&[], Vec::as_slice)
     }
 
-    /// An upper estimate of the samples of a maximal set.
-    pub fn expected_samples(&self, mesh: &Mesh, radius: f64) -> f64 {
-        DENSITY * mesh.area() / (radius * radius) + self.longer_than(radius) / radius
-    }
-
-    /// The same. Refuses a radius that is out of range or requires too many, of so many bytes each, beside given ones.
-    pub fn checked_samples(&self, mesh: &Mesh, radius: f64, bytes: f64, given: Given<3>) -> Result<f64> {
-        check_radius(radius)?;
-        let estimate = self.expected_samples(mesh, radius);
-        let bytes = bytes + given::bytes(given) / estimate.max(1.0);
-        require_samples(estimate, bytes, "radius", &format!("{radius:?} asks for"))?;
-        check_radius_on(mesh, radius)?;
-        Ok(estimate)
-    }
-
     /// The sum of the longest edges of all triangles that are longer than a length; at most sqrt(2) times too large.
     pub fn longer_than(&self, length: f64) -> f64 {
         self.lengths.iter().filter(|&&(end, _)| end > length).map(|&(end, count)| end * f64::from(count)).sum()
     }
-}
-
-/// The number of samples of a maximal set on an area of radius²: [`MAXIMAL_DENSITY`], rounded up.
-pub const DENSITY: f64 = 0.7;
-const _: () = assert!(MAXIMAL_DENSITY < DENSITY && DENSITY < 1.01 * MAXIMAL_DENSITY);
-
-/// An upper estimate of the samples of a maximal set on a part of the surface: those of the area, and those along parts
-/// longer than the radius, since a needle has length and hardly any area.
-pub fn expected_samples_of(radius: f64, area: f64, longest: f64) -> f64 {
-    DENSITY * area / (radius * radius) + if longest > radius { longest / radius } else { 0.0 }
-}
-
-/// Refuses a radius that is out of range on a mesh.
-pub fn check_radius_on(mesh: &Mesh, radius: f64) -> Result<()> {
-    check_radius(radius)?;
-    check_resolution("radius", radius, mesh.float_spacing(), "the largest coordinate of the mesh")
-}
-
-/// Peak memory per sample that is filled from nothing, the returned samples included.
-pub const BYTES_PER_SAMPLE: f64 = 126.0;
-
-/// Refuses an argument that is `asking` for more samples than can be indexed, or than memory holds.
-pub fn require_samples(estimate: f64, bytes: f64, argument: &'static str, asking: &str) -> Result<()> {
-    let samples = format!("about {estimate:.3e} samples");
-    if estimate > f64::from(u32::MAX) {
-        return Err(Error::too_large(argument, format!("{asking} {samples}; the limit is {}", u32::MAX)));
-    }
-    memory::require(estimate * bytes, argument, &samples)
 }
 
 /// The length of the longest edge of a triangle.

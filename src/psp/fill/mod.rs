@@ -15,6 +15,7 @@
 pub mod blocks;
 pub mod cells;
 pub mod darts;
+pub mod estimate;
 pub mod extent;
 pub mod grid;
 pub mod measures;
@@ -28,10 +29,9 @@ pub mod uniform;
 pub use blocks::{Block, Blocks};
 pub use cells::Cells;
 pub use darts::random_point;
+pub use estimate::{BYTES_PER_SAMPLE, DENSITY, check_radius_on, expected_samples_of, require_samples};
 pub use extent::Extent;
-pub use measures::{
-    BYTES_PER_SAMPLE, DENSITY, Measures, check_radius_on, expected_samples_of, longest_edge, require_samples,
-};
+pub use measures::{Measures, longest_edge};
 pub use page::{BATCH, BEYOND, Batch, LANES};
 pub use pages::Pages;
 pub use rounds::{Ground, Layer, Open, PATCH, Patch, Point, TOLERANCE, WHOLE, WholeTriangle, throw};

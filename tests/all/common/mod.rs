@@ -24,6 +24,7 @@ use std::collections::HashMap;
 
 use azulejo::{Boundary, Domain};
 pub use disks::distance;
+pub use tolerance::float_spacing;
 
 /// Both boundaries, for loops.
 pub const BOUNDARIES: [Boundary; 2] = [Boundary::Periodic, Boundary::Bounded];
@@ -58,16 +59,6 @@ pub fn check(domain: &Domain, radius: f64, samples: &[[f32; 2]]) {
     assert_eq!(conflict, None, "conflict: {domain:?}, radius {radius}");
     let gap = find_gap(domain, radius + 3.0 * float_spacing(domain), samples);
     assert_eq!(gap, None, "uncovered: {domain:?}, radius {radius}");
-}
-
-/// The distance between neighbouring floats below the domain's largest coordinate.
-pub fn float_spacing<const D: usize>(domain: &Domain<D>) -> f64 {
-    let largest = domain.min.iter().chain(&domain.max).fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let mut above = largest as f32;
-    if f64::from(above) < largest {
-        above = f32::from_bits(above.to_bits() + 1);
-    }
-    f64::from(above) - f64::from(f32::from_bits(above.to_bits() - 1))
 }
 
 /// Two samples closer than `radius`, if there are any: each sample against those of the buckets around it.
