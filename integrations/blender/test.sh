@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Tests the Blender extension: packed, checked and installed as by a user, in Blender as a Python module, without a window.
+#
+#   integrations/blender/test.sh           all of it; downloads the package bpy, some 350 MB
+#   integrations/blender/test.sh --brief   the manifest and that the files compile, in no time
+set -euo pipefail
+cd "$(dirname "$0")"
+
+root=$(cd ../.. && pwd)
+work=$root/target/blender
+python=$work/bpy/bin/python
+
+if [ "${1:-}" = --brief ]; then
+    python3 pack.py --check azulejo_scatter "$root"
+    exit
+fi
+
+# The newest wheel that bindings/python/test.sh has left; build.sh makes one if there is none.
+wheel() { find "$root/target/python/wheels" -name "*$(uname -m).whl" -printf '%T@ %p\n' 2>/dev/null | sort -n | sed -n '$s/[^ ]* //p'; }
+
+mkdir -p "$work"
+[ -e "$python" ] || python3 -m venv "$work/bpy"
+"$work/bpy/bin/pip" install --quiet --disable-pip-version-check --requirement tools.txt >"$work/installed" 2>&1 || {
+    cat "$work/installed" >&2
+    echo "SKIPPED: the Blender extension in Blender (the package bpy cannot be had for $(python3 --version))"
+    exit
+}
+
+rm -f "$work"/*.zip
+./build.sh $(wheel)
+export AZULEJO_EXTENSION=$work/azulejo_scatter-$(sed -n 's/^version = "\(.*\)"/\1/p' azulejo_scatter/blender_manifest.toml).zip
+# What `blender --command extension validate` runs.
+"$python" "$work"/bpy/lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py validate "$AZULEJO_EXTENSION"
+
+export BLENDER_USER_RESOURCES=$work/home
+rm -rf "$BLENDER_USER_RESOURCES"
+mkdir "$BLENDER_USER_RESOURCES"
+"$python" -m pytest --quiet --no-header -p no:cacheprovider tests
