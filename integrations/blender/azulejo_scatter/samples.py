@@ -11,7 +11,7 @@ _TURN, _SCALE, _PICK, _SHUFFLE = range(4)
 
 @dataclass
 class Samples:
-    """One row for each sample, sorted by class and then, if there are ranks, from coarse to fine."""
+    """One row for each sample; azulejo sorts them by class and then, if there are ranks, from coarse to fine."""
 
     origin: np.ndarray
     positions: np.ndarray
@@ -33,8 +33,6 @@ def sample(surface, settings, factors, progress=None):
     )
     points = _points(mesh, surface.density, settings, factors, progress)
     classes = np.zeros(len(points), np.int32) if points.classes is None else points.classes.astype(np.int32)
-    rows = np.argsort(classes, kind="stable")
-    points, classes = points[rows], classes[rows]
     normals = _normals(points)
     count = len(points)
     ranked = settings.order == "PROGRESSIVE"

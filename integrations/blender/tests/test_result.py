@@ -43,6 +43,12 @@ def test_each_class_gets_the_objects_of_its_collection(forest):
     assert len(put) == len(forest.data.vertices)
 
 
+def test_nothing_is_put_on_the_vertices_of_the_objects(forest):
+    for each in bpy.data.collections["Trees"].objects:
+        each.data.attributes.new("class", "INT", "POINT").data.foreach_set("value", [1] * len(each.data.vertices))
+    assert len(seen.instances(forest)) == len(forest.data.vertices)
+
+
 def test_objects_stand_on_the_normals_and_are_scaled(forest):
     points, normals = seen.in_world(forest), seen.attribute(forest, "normal")
     scales = seen.attribute(forest, "scale")

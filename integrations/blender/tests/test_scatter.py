@@ -49,6 +49,18 @@ def test_normals_are_those_of_the_shading():
     assert np.einsum("px,px->p", places, normals).min() > 0.97
 
 
+def test_normals_are_those_of_the_world():
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=96, ring_count=64, scale=(3.0, 1.0, 0.5), rotation=(0.5, 0.2, 1.0))
+    ellipsoid = bpy.context.object
+    ellipsoid.data.shade_smooth()
+    result = scatter(ellipsoid, radius=0.2)
+    inverse = np.linalg.inv(seen.matrix(ellipsoid)[:3, :3])
+    # The gradient of the function that is 1 on the ellipsoid.
+    expected = seen.in_world(result) @ inverse.T @ inverse
+    expected /= np.linalg.norm(expected, axis=1, keepdims=True)
+    assert np.einsum("px,px->p", expected, seen.attribute(result, "normal")).min() > 0.995
+
+
 @pytest.mark.parametrize("weighted", [False, True])
 @pytest.mark.parametrize("order", ["ANY", "PROGRESSIVE"])
 def test_counts_are_exact(cube, weighted, order):
