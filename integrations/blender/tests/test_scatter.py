@@ -50,8 +50,9 @@ def test_normals_are_those_of_the_shading():
 
 
 def test_normals_are_those_of_the_world():
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=96, ring_count=64, scale=(3.0, 1.0, 0.5), rotation=(0.5, 0.2, 1.0))
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=96, ring_count=64)
     ellipsoid = bpy.context.object
+    ellipsoid.scale, ellipsoid.rotation_euler = (3.0, 1.0, 0.5), (0.5, 0.2, 1.0)
     ellipsoid.data.shade_smooth()
     result = scatter(ellipsoid, radius=0.2)
     inverse = np.linalg.inv(seen.matrix(ellipsoid)[:3, :3])
