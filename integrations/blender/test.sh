@@ -15,9 +15,6 @@ if [ "${1:-}" = --brief ]; then
     exit
 fi
 
-# The newest wheel that bindings/python/test.sh has left; build.sh makes one if there is none.
-wheel() { find "$root/target/python/wheels" -name "*$(uname -m).whl" -printf '%T@ %p\n' 2>/dev/null | sort -n | sed -n '$s/[^ ]* //p'; }
-
 mkdir -p "$work"
 [ -e "$python" ] || python3 -m venv "$work/bpy"
 "$work/bpy/bin/pip" install --quiet --disable-pip-version-check --requirement tools.txt >"$work/installed" 2>&1 || {
@@ -27,7 +24,8 @@ mkdir -p "$work"
 }
 
 rm -f "$work"/*.zip
-./build.sh $(wheel)
+# That of bindings/python/test.sh, or a new one.
+./build.sh $(../wheel.sh)
 export AZULEJO_EXTENSION=$work/azulejo_scatter-$(sed -n 's/^version = "\(.*\)"/\1/p' azulejo_scatter/blender_manifest.toml).zip
 # What `blender --command extension validate` runs.
 "$python" "$work"/bpy/lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py validate "$AZULEJO_EXTENSION"

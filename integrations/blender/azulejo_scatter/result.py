@@ -78,8 +78,10 @@ def _write(result, scattered):
     ]:
         mesh.attributes.new(name, kind, "POINT").data.foreach_set(field, np.ascontiguousarray(values).ravel())
     mesh.update()
-    # Radii hold in the world because the object is neither turned nor scaled.
-    result.matrix_world = Matrix.Translation(scattered.origin)
+    # Radii hold in the world because the object is neither turned nor scaled, not even by a parent.
+    if result.parent:
+        result.matrix_parent_inverse = result.parent.matrix_world.inverted_safe()
+    result.matrix_basis = Matrix.Translation(scattered.origin)
 
 
 def _instance(result):

@@ -184,6 +184,19 @@ def test_an_update_in_edit_mode_sees_the_edited_mesh(cube):
     assert len(result.data.vertices) > 3 * before
 
 
+def test_a_result_may_be_a_child_of_its_surface(cube):
+    result = scatter(cube, radius=0.3)
+    alone = seen.in_world(result)
+    result.parent = cube
+    assert bpy.ops.azulejo.update() == {"FINISHED"}
+    bpy.context.view_layer.update()
+    assert np.abs(seen.in_world(result) - alone).max() < 1e-4
+    assert seen.smallest_distances(seen.in_world(result)).min() >= 0.3 * (1.0 - 1e-5)
+    cube.location.z += 5.0
+    bpy.context.view_layer.update()
+    assert np.abs(seen.in_world(result) - alone - [0.0, 0.0, 5.0]).max() < 1e-4
+
+
 def test_a_failed_update_leaves_the_result_and_says_why(forest, cube):
     before = seen.in_world(forest)
     bpy.data.objects.remove(cube)

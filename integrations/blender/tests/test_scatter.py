@@ -54,6 +54,7 @@ def test_normals_are_those_of_the_world():
     ellipsoid = bpy.context.object
     ellipsoid.scale, ellipsoid.rotation_euler = (3.0, 1.0, 0.5), (0.5, 0.2, 1.0)
     ellipsoid.data.shade_smooth()
+    bpy.context.view_layer.update()
     result = scatter(ellipsoid, radius=0.2)
     inverse = np.linalg.inv(seen.matrix(ellipsoid)[:3, :3])
     # The gradient of the function that is 1 on the ellipsoid.
