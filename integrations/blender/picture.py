@@ -29,14 +29,16 @@ def main(target):
         collection = bpy.data.collections.new(name)
         for each in objects:
             collection.objects.link(each)
-    for density, radius, align, classes in [
-        ("Meadow", 0.75, 0.0, {"Trees": 2.2, "Bushes": 1.0}),
-        ("Slope", 0.8, 1.0, {"Rocks": 2.5, "Stones": 1.0}),
+    for density, avoided, radius, align, classes in [
+        ("Meadow", "", 0.75, 0.0, {"Trees": 2.2, "Bushes": 1.0}),
+        ("Slope", "Hills Scatter", 0.8, 1.0, {"Rocks": 2.5, "Stones": 1.0}),
     ]:
         bpy.context.view_layer.objects.active = terrain
         bpy.ops.azulejo.scatter(
             radius=radius,
             density=density,
+            avoided=avoided,
+            clearance=1.2,
             align=align,
             scale_min=0.8,
             scale_max=1.25,

@@ -1,7 +1,7 @@
 """Scatter, update, and the list of classes of a result."""
 
 import bpy
-from bpy.props import CollectionProperty, IntProperty
+from bpy.props import CollectionProperty, IntProperty, StringProperty
 
 from . import parameters, result
 from .parameters import MOST_CLASSES, AzulejoNamedClass, Parameters
@@ -17,6 +17,9 @@ class AZULEJO_OT_scatter(Parameters, bpy.types.Operator):
     bl_label = "Scatter (Azulejo)"
     bl_options = {"REGISTER", "UNDO"}
 
+    avoided: StringProperty(
+        name="Keep Clear of", description="Points keep away from the vertices of this object, which may be another result"
+    )
     class_count: IntProperty(
         name="Classes", description="Of points, each with a collection of its own", min=0, max=MOST_CLASSES
     )
@@ -47,6 +50,10 @@ class AZULEJO_OT_scatter(Parameters, bpy.types.Operator):
 
     def fill_in(self, settings):
         parameters.copy(self, settings)
+        if self.avoided:
+            settings.avoided = bpy.data.objects.get(self.avoided)
+            if settings.avoided is None or settings.avoided.type != "MESH":
+                raise ValueError(f"avoided: there is no mesh object called {self.avoided}")
         for named in list(self.classes)[: self.class_count]:
             added = settings.classes.add()
             added.factor = named.factor
@@ -59,6 +66,8 @@ class AZULEJO_OT_scatter(Parameters, bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         draw_parameters(layout, self, context.object.azulejo.source if context.object else None)
+        layout.prop_search(self, "avoided", bpy.data, "objects")
+        layout.prop(self, "clearance")
         layout.prop(self, "class_count")
         for index, named in enumerate(list(self.classes)[: self.class_count]):
             row = layout.row()
@@ -78,11 +87,14 @@ class AZULEJO_OT_update(bpy.types.Operator):
         return context.object is not None and bool(results(context))
 
     def execute(self, context):
+        counts = []
         try:
-            counts = [result.fill(context, each) for each in results(context)]
+            for each in results(context):
+                counts.append(result.fill(context, each))
         except _REFUSED as error:
             self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            # Those that were updated before can be undone.
+            return {"FINISHED"} if counts else {"CANCELLED"}
         self.report({"INFO"}, f"{sum(counts)} points")
         return {"FINISHED"}
 
@@ -128,10 +140,20 @@ def is_result(candidate):
 
 
 def results(context):
-    """The active object if it is a result, or the results on it."""
+    """The active object if it is a result, or the results on it, each after that which it keeps clear of."""
     if is_result(context.object):
         return [context.object]
-    return [each for each in context.scene.objects if is_result(each) and each.azulejo.source == context.object]
+    found = [each for each in context.scene.objects if is_result(each) and each.azulejo.source == context.object]
+    return sorted(found, key=_depth)
+
+
+def _depth(result):
+    """How many results, each kept clear of by the one before, come before this one; each counts once."""
+    before = []
+    while is_result(result) and result not in before:
+        before.append(result)
+        result = result.azulejo.avoided
+    return len(before)
 
 
 def draw_parameters(layout, settings, source):

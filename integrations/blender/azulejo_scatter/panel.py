@@ -28,6 +28,8 @@ class AZULEJO_PT_scatter(bpy.types.Panel):
         settings = context.object.azulejo
         layout.prop(settings, "source")
         operators.draw_parameters(layout, settings, settings.source)
+        layout.prop(settings, "avoided")
+        layout.prop(settings, "clearance")
         row = layout.row()
         row.template_list("AZULEJO_UL_classes", "", settings, "classes", settings, "active_class", rows=3)
         column = row.column(align=True)

@@ -48,6 +48,14 @@ class Parameters:
             ("TOGETHER", "Together", "All classes together are blue noise as well, with points of two classes nearer"),
         ],
     )
+    clearance: FloatProperty(
+        name="Clearance",
+        description="How far points are at least from the vertices of the object that they keep clear of",
+        default=0.2,
+        min=0.0,
+        unit="LENGTH",
+        precision=4,
+    )
     order: EnumProperty(
         name="Order",
         items=[
@@ -115,6 +123,12 @@ class Settings(Parameters, bpy.types.PropertyGroup):
 
     is_result: BoolProperty()
     source: PointerProperty(name="Surface", type=bpy.types.Object, poll=lambda _, other: other.type == "MESH")
+    avoided: PointerProperty(
+        name="Keep Clear of",
+        description="Points keep away from the vertices of this object, which may be another result",
+        type=bpy.types.Object,
+        poll=lambda _, other: other.type == "MESH",
+    )
     classes: CollectionProperty(type=AzulejoClass)
     active_class: IntProperty()
 

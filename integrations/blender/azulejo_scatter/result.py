@@ -33,13 +33,16 @@ def fill(context, result):
         raise ValueError(f"source: the object that {result.name} was scattered on is gone")
     if result.mode == "EDIT":
         raise ValueError(f"result: {result.name} is in edit mode")
+    if settings.avoided == result:
+        raise ValueError(f"avoided: {result.name} cannot keep clear of itself")
     for each in settings.classes:
         if each.collection and result.name in each.collection.all_objects:
             raise ValueError(f"classes: the collection {each.collection.name} holds {result.name} itself")
     manager = context.window_manager
     manager.progress_begin(0.0, 1.0)
     try:
-        seen = surface.read(settings.source, settings.density, context.evaluated_depsgraph_get())
+        depsgraph = context.evaluated_depsgraph_get()
+        seen = surface.read(settings.source, settings.density, settings.avoided, depsgraph)
         factors = [each.factor for each in settings.classes] or [1.0]
         scattered = samples.sample(seen, settings, factors, manager.progress_update)
     finally:

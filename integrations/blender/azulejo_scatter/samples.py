@@ -31,7 +31,7 @@ def sample(surface, settings, factors, progress=None):
     mesh = azulejo.Mesh(
         surface.vertices, surface.triangles, normals=surface.normals, normal_indices=surface.normal_indices
     )
-    points = _points(mesh, surface.density, settings, factors, progress)
+    points = _points(mesh, surface, settings, factors, progress)
     classes = np.zeros(len(points), np.int32) if points.classes is None else points.classes.astype(np.int32)
     normals = _normals(points)
     count = len(points)
@@ -50,8 +50,13 @@ def sample(surface, settings, factors, progress=None):
     )
 
 
-def _points(mesh, density, settings, factors, progress):
+def _points(mesh, surface, settings, factors, progress):
+    density = surface.density
     options = {"order": settings.order.lower(), "seed": settings.seed, "progress": progress}
+    if surface.avoided is not None:
+        shape = (len(surface.avoided), len(factors)) if len(factors) > 1 else len(surface.avoided)
+        options["given_positions"] = surface.avoided
+        options["given_clearances"] = np.full(shape, settings.clearance)
     by_count = settings.amount == "COUNT"
     if len(factors) > 1:
         if by_count:

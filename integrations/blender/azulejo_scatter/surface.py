@@ -16,10 +16,11 @@ class Surface:
     normals: np.ndarray
     normal_indices: np.ndarray
     density: Optional[np.ndarray]
+    avoided: Optional[np.ndarray]
 
 
-def read(source, density, depsgraph):
-    """The surface of an object, with the named density unless the name is empty."""
+def read(source, density, avoided, depsgraph):
+    """The surface of an object, with the named density unless the name is empty, and the vertices of another object."""
     if source.mode == "EDIT":
         source.update_from_editmode()
         depsgraph.update()
@@ -41,9 +42,16 @@ def read(source, density, depsgraph):
             normals=_unit(_entries(mesh.corner_normals, "vector", 3, np.float32) @ (side * _cofactors(linear)).T),
             normal_indices=np.ascontiguousarray(corners),
             density=_density(evaluated, mesh, density) if density else None,
+            avoided=_vertices(avoided, matrix[:3, 3]) if avoided else None,
         )
     finally:
         evaluated.to_mesh_clear()
+
+
+def _vertices(avoided, origin):
+    """Those that the object itself has: instances and other modifiers do not count."""
+    matrix = np.array(avoided.matrix_world, np.float64)
+    return _entries(avoided.data.vertices, "co", 3, np.float32) @ matrix[:3, :3].T + (matrix[:3, 3] - origin)
 
 
 def _entries(elements, name, width, kind):

@@ -164,6 +164,24 @@ def test_an_update_on_the_surface_updates_all_its_results(cube):
     assert [len(result.data.vertices) for result in results] == [11, 22]
 
 
+def test_results_are_updated_after_those_that_they_keep_clear_of(cube):
+    # That which is kept clear of is made last.
+    first, second = scatter(cube, radius=0.3), scatter(cube, radius=2.0)
+    first.azulejo.avoided, first.azulejo.clearance = second, 0.6
+    cube.scale = (2.0, 2.0, 2.0)
+    bpy.context.view_layer.objects.active = cube
+    assert bpy.ops.azulejo.update() == {"FINISHED"}
+    assert seen.gap(seen.in_world(first), seen.in_world(second)) >= 0.6 * (1.0 - 1e-6)
+    assert seen.farthest(seen.probes(cube, 500), seen.in_world(second)) <= 2.0002
+    # Each of the other: the last that is made keeps clear.
+    second.azulejo.avoided, second.azulejo.clearance = first, 0.5
+    assert bpy.ops.azulejo.update() == {"FINISHED"}
+    assert seen.gap(seen.in_world(first), seen.in_world(second)) >= 0.5 * (1.0 - 1e-6)
+    second.azulejo.avoided = second
+    with pytest.raises(RuntimeError, match="avoided: Cube Scatter.001 cannot keep clear of itself"):
+        bpy.ops.azulejo.update()
+
+
 def test_an_update_in_edit_mode_sees_the_edited_mesh(cube):
     result = scatter(cube, radius=0.3)
     before = len(result.data.vertices)
@@ -295,7 +313,7 @@ def test_panels_name_what_there_is(forest, cube):
         drawn = []
         panel.draw(SimpleNamespace(layout=Layout(drawn)), bpy.context)
         assert drawn[: len(expected)] == expected
-    assert drawn[-1] == "azulejo.update" and {"density", "order", "viewport", "seed", "classes"} <= set(drawn)
+    assert drawn[-1] == "azulejo.update" and {"density", "order", "viewport", "seed", "avoided", "classes"} <= set(drawn)
 
 
 def test_azulejo_comes_from_the_wheel_of_the_extension():

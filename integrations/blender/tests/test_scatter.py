@@ -136,6 +136,29 @@ def test_classes_keep_their_radii(cube, collection, density, order, between):
     assert seen.smallest_distances(points).min() >= radius * slack * (1.0 if between == "APART" else 0.8)
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"radius": 0.2},
+        {"radius": 0.2, "order": "ANY"},
+        {"amount": "COUNT", "count": 300},
+        {"radius": 0.2, "density": "Weights"},
+        {"radius": 0.2, "classes": [{"name": "", "factor": 2.0}, {"name": "", "factor": 1.0}]},
+    ],
+)
+def test_points_keep_clear_of_another_result(cube, options):
+    cube.vertex_groups.new(name="Weights").add(range(8), 1.0, "REPLACE")
+    trees = seen.in_world(scatter(cube, radius=2.0))
+    result = scatter(cube, avoided="Cube Scatter", clearance=0.7, **options)
+    points = seen.in_world(result)
+    assert seen.gap(points, trees) >= 0.7 * (1.0 - 1e-6)
+    if options == {"radius": 0.2}:
+        for place in seen.probes(cube, 2000):
+            assert seen.gap([place], points) <= 0.20002 or seen.gap([place], trees) <= 0.70002
+    if "count" in options:
+        assert len(points) == 300
+
+
 def test_every_first_part_is_as_far_apart_as_its_rank(cube):
     result = scatter(cube, radius=0.25, order="PROGRESSIVE")
     points, ranks = seen.in_world(result), seen.attribute(result, "rank")
@@ -179,6 +202,7 @@ def test_modifiers_of_the_surface_count(cube):
         ({"density": "Empty"}, "density"),
         ({"radius": 1e-6}, "radius: 9.99.* asks for about .* samples; the limit is"),
         ({"radius": 1e6}, "radius: 1000000.0 is more than the diagonal of the mesh"),
+        ({"avoided": "Nothing"}, "avoided: there is no mesh object called Nothing"),
         ({"scale_min": 2.0}, "scale_min: 2 is above scale_max, 1"),
         ({"classes": [{"name": "Nowhere", "factor": 1.0}]}, "classes: there is no collection called Nowhere"),
         ({"classes": [{"name": "", "factor": 0.0}]}, "radius: "),
