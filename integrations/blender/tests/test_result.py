@@ -1,5 +1,7 @@
 """The object that a scatter makes: instances, updates, undo, and what is left when the extension is disabled."""
 
+from types import SimpleNamespace
+
 import bpy
 import conftest
 import numpy as np
@@ -305,8 +307,6 @@ class Layout:
 
 
 def test_panels_name_what_there_is(forest, cube):
-    from types import SimpleNamespace
-
     panel = bpy.types.AZULEJO_PT_scatter
     for active, expected in ((cube, ["azulejo.scatter", "azulejo.update"]), (forest, ["source", "amount", "radius"])):
         bpy.context.view_layer.objects.active = active
@@ -314,6 +314,19 @@ def test_panels_name_what_there_is(forest, cube):
         panel.draw(SimpleNamespace(layout=Layout(drawn)), bpy.context)
         assert drawn[: len(expected)] == expected
     assert drawn[-1] == "azulejo.update" and {"density", "order", "viewport", "seed", "avoided", "classes"} <= set(drawn)
+
+
+@pytest.mark.parametrize("amount", ["RADIUS", "COUNT"])
+def test_the_operator_draws_all_its_properties(forest, amount):
+    operator = bpy.types.AZULEJO_OT_scatter
+    rows = SimpleNamespace(bl_rna=bpy.types.PropertyGroup.bl_rna_get_subclass_py("AzulejoNamedClass").bl_rna)
+    drawn = []
+    active = SimpleNamespace(
+        layout=Layout(drawn), bl_rna=bpy.ops.azulejo.scatter.get_rna_type(), amount=amount, class_count=1, classes=[rows]
+    )
+    operator.draw(active, bpy.context)
+    properties = {name for name in active.bl_rna.properties.keys() if name != "rna_type"}
+    assert set(drawn) == properties - {"classes", "count" if amount == "RADIUS" else "radius"} | {"name", "factor"}
 
 
 def test_azulejo_comes_from_the_wheel_of_the_extension():
