@@ -24,7 +24,7 @@ def read(source, density, avoided, depsgraph):
     if source.mode == "EDIT":
         source.update_from_editmode()
         depsgraph.update()
-    evaluated = source.evaluated_get(depsgraph)
+    evaluated = _evaluated("source", source, depsgraph)
     mesh = evaluated.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph)
     try:
         mesh.calc_loop_triangles()
@@ -42,16 +42,30 @@ def read(source, density, avoided, depsgraph):
             normals=_unit(_entries(mesh.corner_normals, "vector", 3, np.float32) @ (side * _cofactors(linear)).T),
             normal_indices=np.ascontiguousarray(corners),
             density=_density(evaluated, mesh, density) if density else None,
-            avoided=_vertices(avoided, matrix[:3, 3]) if avoided else None,
+            avoided=_vertices(_evaluated("avoided", avoided, depsgraph), matrix[:3, 3]) if avoided else None,
         )
     finally:
         evaluated.to_mesh_clear()
 
 
+def _evaluated(name, wanted, depsgraph):
+    # What a pointer alone leads to is in the graph as well, but stays as it was.
+    if wanted.hide_viewport or not _has(depsgraph.view_layer.layer_collection, wanted):
+        raise ValueError(f"{name}: {wanted.name} is disabled in the viewport, or not in the view layer")
+    return wanted.evaluated_get(depsgraph)
+
+
+def _has(layer, wanted):
+    if layer.collection.hide_viewport:
+        return False
+    own = not layer.exclude and layer.collection.objects.get(wanted.name) == wanted
+    return own or any(_has(child, wanted) for child in layer.children)
+
+
 def _vertices(avoided, origin):
     """Those that the object itself has: instances and other modifiers do not count."""
     matrix = np.array(avoided.matrix_world, np.float64)
-    return _entries(avoided.data.vertices, "co", 3, np.float32) @ matrix[:3, :3].T + (matrix[:3, 3] - origin)
+    return _entries(avoided.original.data.vertices, "co", 3, np.float32) @ matrix[:3, :3].T + (matrix[:3, 3] - origin)
 
 
 def _entries(elements, name, width, kind):

@@ -226,6 +226,32 @@ def test_a_failed_update_leaves_the_result_and_says_why(forest, cube):
     assert (seen.in_world(forest) == before).all()
 
 
+@pytest.mark.parametrize("role", ["source", "avoided"])
+@pytest.mark.parametrize("way", ["disabled", "unlinked", "excluded", "collection disabled"])
+def test_what_blender_does_not_evaluate_is_refused(cube, role, way):
+    other = scatter(cube, radius=2.0)
+    result = scatter(cube, radius=0.4, avoided=other.name)
+    gone, apart = {"source": cube, "avoided": other}[role], bpy.data.collections.new("Apart")
+    bpy.context.scene.collection.children.link(apart)
+    for home in list(gone.users_collection):
+        home.objects.unlink(gone)
+    if way != "unlinked":
+        apart.objects.link(gone)
+    gone.hide_viewport = way == "disabled"
+    apart.hide_viewport = way == "collection disabled"
+    bpy.context.view_layer.layer_collection.children["Apart"].exclude = way == "excluded"
+    gone.location.x += 3.0
+    bpy.context.view_layer.objects.active = result
+    with pytest.raises(RuntimeError, match=f"{role}: {gone.name} is disabled in the viewport, or not in the view layer"):
+        bpy.ops.azulejo.update()
+    if way == "disabled":
+        # What is hidden by the eye alone is there.
+        gone.hide_viewport = False
+        gone.hide_set(True)
+        assert bpy.ops.azulejo.update() == {"FINISHED"}
+        assert abs(seen.in_world(result)[:, 0].mean() - (103.0 if role == "source" else 100.0)) < 0.5
+
+
 def test_a_result_is_not_put_on_itself(forest):
     bpy.data.collections["Trees"].objects.link(forest)
     with pytest.raises(RuntimeError, match="classes: the collection Trees holds Cube Scatter itself"):
