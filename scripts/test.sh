@@ -157,6 +157,7 @@ all_stages() {
     stage "Python: a wheel, installed and tested in a clean environment" bindings/python/test.sh $(if_long)
     stage "Packages of crates, and recipes for vcpkg, conan and conda" packaging/test.sh
     stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh
+    stage "Blender extension: its manifest, and that its files compile" integrations/blender/test.sh --brief
     stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
     if has_clean_root; then
         stage "Debian packages: installed, used and removed in a clean root of $release" \
@@ -168,6 +169,8 @@ all_stages() {
         stage "Property tests with fresh seeds" fresh_seeds
         stage "Ten thousand relaxed sets" cargo test --locked --package azulejo --test all -- --ignored dcr_converged::
         stage "Ten million rays by every engine" cargo test --locked --package azulejo --lib -- --ignored engines::ten_million
+        stage "Blender extension, installed in Blender as a Python module" integrations/blender/test.sh
+        stage "Examples with trimesh, Open3D, PyVista, Mitsuba and three.js" integrations/examples/test.sh
         stage "Broken guarantees are noticed" scripts/mutate.sh
     else
         leave_out "what scripts/test.sh --long adds"
