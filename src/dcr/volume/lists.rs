@@ -15,6 +15,9 @@ use crate::simd::{LANES, Lanes, Level, Work, run};
 /// The number of cells along a row that lists reach on either side of a point's own.
 const NEAR: usize = 3;
 
+/// The number of vectors that most lists have at most.
+const USUAL: usize = 2;
+
 /// The numbers of the lanes.
 const NUMBERS: [i32; LANES] = {
     let mut numbers = [0; LANES];
@@ -176,7 +179,8 @@ impl Work for Listing<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Lists {
         let cells = self.cells;
-        let mut lists = Lists::default();
+        let mut lists =
+            Lists { ends: Vec::with_capacity(self.places.len()), names: Vec::with_capacity(USUAL * self.places.len()) };
         // The names in the list of a point, with space for one vector more.
         let mut found = vec![0i32; 4 * LANES];
         let most = lanes.splat(cells.radius * cells.radius);

@@ -196,6 +196,8 @@ impl VolumeRelaxation {
         }
         let places: Vec<Place> = self.places.iter().map(|&at| place(at)).collect();
         let (count, radius) = (self.order.len(), reach + SKIN);
+        // Memory for one of both.
+        (self.lists, self.strayed) = (Vec::new(), f32::INFINITY);
         self.lists = lists(job, &self.torus, self.level, &places, count, radius.into())?;
         (self.radius, self.strayed) = (radius, 0.0);
         self.listed = places;

@@ -52,8 +52,8 @@ impl VolumeTorus {
     pub fn new(domain: Domain<3>, count: usize) -> Self {
         let (extent, spacing) = (domain.extent(), spacing(&domain, count));
         let mut torus = Self { domain, spacing, unit: [0.0; 3], last: [u32::MAX; 3], period_bits: [0; 3] };
-        for axis in 0..3 {
-            let length = extent[axis] / spacing;
+        for (axis, side) in extent.into_iter().enumerate() {
+            let length = side / spacing;
             let period = match domain.boundary {
                 Boundary::Bounded => {
                     let period = length + BEYOND;
