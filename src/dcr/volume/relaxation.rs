@@ -37,7 +37,7 @@ const FALL_OF_MANY: f64 = 0.85;
 const PUSH: f32 = 0.5;
 
 /// Up to this distance, in spacings, points push each other a little in the first steps, those of this share of all: from
-/// behind, into holes. Without, the widest hole is .85 spacings in radius after 100 steps instead of .79.
+/// behind, into holes. Without, the widest hole is .85 spacings in radius after 100 steps instead of .78.
 const FAR_RADIUS: f32 = 1.3;
 const FAR_PUSH: f32 = 0.1;
 const FAR_SHARE: f64 = 0.7;
