@@ -1,5 +1,5 @@
 //! DCR: time per point and step, on one thread and on four, and their ratio; then whole calls and what they reach, in the
-//! plane from KDRT's sets and from starts that are heaped, and on meshes.
+//! plane from KDRT's sets and from starts that are heaped, on meshes and in cuboids.
 //!
 //! Wall times of a shared machine vary: the least of several runs is printed, and ratios of one program.
 
@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax, surface};
+use azulejo::dcr::{Method, Neighbourhood, Options, Thesis, relax, surface, volume};
 use azulejo::kdrt::{self, CountOptions};
 use azulejo::mesh::Mesh;
 use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY, psp};
@@ -71,6 +71,7 @@ fn main() {
     whole_calls(domain, &contexts);
     any_start(&contexts[0].1);
     calls_on_meshes(&contexts);
+    calls_in_cuboids(&contexts);
 }
 
 /// A million points of KDRT, all steps.
@@ -162,6 +163,30 @@ fn calls_on_meshes(contexts: &[(&str, Context)]) {
             let nanoseconds = 1e9 * seconds / (samples.len() as f64 * f64::from(report.iterations));
             let (count, triangles) = (samples.len(), mesh.triangles().len());
             println!("{:<28} {count:>9} {triangles:>9} {threads:>9} {nanoseconds:>12.1} {:>6.3}", "torus", report.rho);
+        }
+    }
+}
+
+/// Random points of the unit cube, everything in.
+fn calls_in_cuboids(contexts: &[(&str, Context)]) {
+    println!(
+        "\n{:<28} {:>9} {:>9} {:>9} {:>12} {:>6}",
+        "whole calls in cuboids", "points", "steps", "threads", "ns per step", "rho"
+    );
+    for (count, steps) in [(4096, 100), (32_768, 100), (32_768, 500), (1_000_000, 100)] {
+        let place = |k: usize| {
+            [0.618_033_988_749_895, 0.414_213_562_373_095, 0.302_775_637_731_995]
+                .map(|ratio| scattered(k as f64 * ratio) as f32)
+        };
+        let points: Vec<[f32; 3]> = (1..=count).map(place).collect();
+        for (name, boundary) in [("periodic", Boundary::Periodic), ("bounded", Boundary::Bounded)] {
+            for (threads, context) in contexts {
+                let options = volume::Options::new(Domain::unit(boundary)).max_iterations(steps).tolerance(0.0);
+                let start = Instant::now();
+                let (_, report) = volume::relax(context, &options, black_box(&points), None).unwrap();
+                let nanoseconds = 1e9 * start.elapsed().as_secs_f64() / (count as f64 * f64::from(report.iterations));
+                println!("{name:<28} {count:>9} {steps:>9} {threads:>9} {nanoseconds:>12.1} {:>6.3}", report.rho);
+            }
         }
     }
 }

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`kdrt`] | massive maximal Poisson-disk sets in the plane | thesis ch. 2 |
 //! | [`psp`] | Poisson-disk samples on triangle meshes, maximal if wanted | thesis ch. 3 |
-//! | [`dcr`] | a point set, in the plane or on a mesh, relaxed by distance constraints | thesis ch. 4 |
+//! | [`dcr`] | a point set, in the plane, on a mesh or in a cuboid, relaxed by distance constraints | thesis ch. 4 |
 //! | [`mod@thin`] | some points of a cloud, far from each other and near to all the others | Gonzalez 1985 |
 //! | [`volume`] | maximal Poisson-disk sets of cuboids and of the inside of meshes | Ebeida et al. 2012 |
 //! | [`mask`] | blue-noise masks: images of ranks, for dithering and for a sample per pixel | Ulichney 1993 |

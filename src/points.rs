@@ -69,6 +69,22 @@ impl<const D: usize> Domain<D> {
         Self { min: moved(self.min), max: moved(self.max), boundary: self.boundary }
     }
 
+    /// The vector from `from` to `to`; on a torus the shortest of its images.
+    pub fn offset(&self, from: [f64; D], to: [f64; D]) -> [f64; D] {
+        let extent = self.extent();
+        std::array::from_fn(|axis| {
+            let d = to[axis] - from[axis];
+            match self.boundary {
+                Boundary::Bounded => d,
+                Boundary::Periodic => {
+                    let turns = d / extent[axis];
+                    // Most differences need no turn, and rounding is a function call in builds for generic processors.
+                    if turns.abs() < 0.5 { d } else { d - extent[axis] * turns.round() }
+                }
+            }
+        })
+    }
+
     /// True if a sample lies in `min <= x < max`.
     pub(crate) fn contains(&self, sample: [f32; D]) -> bool {
         (0..D).all(|axis| (self.min[axis]..self.max[axis]).contains(&f64::from(sample[axis])))
@@ -103,6 +119,25 @@ impl<const D: usize> Domain<D> {
         }
         Ok(())
     }
+
+    /// Refuses an invalid domain, and points (`positions`) outside it.
+    pub(crate) fn check_set(&self, points: &[[f32; D]]) -> Result<()> {
+        self.check()?;
+        self.check_points(points)
+    }
+
+    /// Refuses points (`positions`) that do not lie in `min <= x < max`, and more of them than can be indexed.
+    pub(crate) fn check_points(&self, points: &[[f32; D]]) -> Result<()> {
+        check::indexable("positions", "points", points.len())?;
+        match points.iter().position(|&point| !self.contains(point)) {
+            None => Ok(()),
+            Some(index) => {
+                let (place, Self { min, max, .. }) = (points[index].map(|x| x.to_string()).join(", "), self);
+                let reason = format!("point {index} is ({place}), outside the domain {min:?} to {max:?}");
+                Err(Error::invalid("positions", reason))
+            }
+        }
+    }
 }
 
 impl Domain {
@@ -112,47 +147,10 @@ impl Domain {
         width * height
     }
 
-    /// The vector from `from` to `to`; on a torus the shortest of its images.
-    pub fn offset(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
-        let extent = self.extent();
-        std::array::from_fn(|axis| {
-            let d = to[axis] - from[axis];
-            match self.boundary {
-                Boundary::Bounded => d,
-                Boundary::Periodic => {
-                    let turns = d / extent[axis];
-                    // Most differences need no turn, and rounding is a function call in builds for generic processors.
-                    if turns.abs() < 0.5 { d } else { d - extent[axis] * turns.round() }
-                }
-            }
-        })
-    }
-
     /// The distance of neighbours if `count` points stood in hexagonal arrangement on the area:
     /// `d_max = sqrt(2 A / (sqrt(3) N))`. (The thesis's `r_max` of §1.4 is a disk radius, half of it.)
     pub fn hexagonal_distance(&self, count: usize) -> f64 {
         (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
-    }
-
-    /// Refuses an invalid domain, and points (`positions`) outside it.
-    pub(crate) fn check_set(&self, points: &[[f32; 2]]) -> Result<()> {
-        self.check()?;
-        self.check_points(points)
-    }
-
-    /// Refuses points (`positions`) that do not lie in `min <= x < max`, and more of them than can be indexed.
-    pub(crate) fn check_points(&self, points: &[[f32; 2]]) -> Result<()> {
-        check::indexable("positions", "points", points.len())?;
-        match points.iter().position(|&point| !self.contains(point)) {
-            None => Ok(()),
-            Some(index) => {
-                let ([x, y], Self { min, max, .. }) = (points[index], self);
-                Err(Error::invalid(
-                    "positions",
-                    format!("point {index} is ({x}, {y}), outside the domain {min:?} to {max:?}"),
-                ))
-            }
-        }
     }
 }
 

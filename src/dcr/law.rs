@@ -65,16 +65,43 @@ impl Force {
     pub fn moves(self, velocity: Vec2, drift: Vec2) -> (Vec2, Vec2) {
         let limit = SAFE_FRACTION * self.clearance;
         let velocity = MOMENTUM * velocity + self.sum;
-        (limited(velocity + drift, limit), limited(velocity, limit))
+        let limited = |vector: Vec2| limited(vector.to_array(), limit).into();
+        (limited(velocity + drift), limited(velocity))
     }
+}
+
+/// The velocity of a point after a step in which this force acts on it, which is its displacement if nothing else moves it.
+#[inline(always)]
+pub fn carried<const D: usize>(velocity: [f32; D], force: [f32; D], clearance: f32) -> [f32; D] {
+    let (mut sum, mut axis) = (force, 0);
+    while axis < D {
+        sum[axis] += MOMENTUM * velocity[axis];
+        axis += 1;
+    }
+    limited(sum, SAFE_FRACTION * clearance)
+}
+
+/// A vector times a number.
+#[inline(always)]
+fn scaled<const D: usize>(mut vector: [f32; D], scale: f32) -> [f32; D] {
+    let mut axis = 0;
+    while axis < D {
+        vector[axis] *= scale;
+        axis += 1;
+    }
+    vector
 }
 
 /// A vector, cut to a length.
 #[inline(always)]
-fn limited(vector: Vec2, limit: f32) -> Vec2 {
-    let squared = vector.x * vector.x + vector.y * vector.y;
+fn limited<const D: usize>(vector: [f32; D], limit: f32) -> [f32; D] {
+    let (mut squared, mut axis) = (0.0, 0);
+    while axis < D {
+        squared += vector[axis] * vector[axis];
+        axis += 1;
+    }
     let scale = if squared > limit * limit { limit / squared.sqrt() } else { 1.0 };
-    Vec2::new(vector.x * scale, vector.y * scale)
+    scaled(vector, scale)
 }
 
 impl Constraints {

@@ -9,7 +9,8 @@
 //! * [`Method::Thesis`]: the algorithm of the thesis with all of its settings.
 //!
 //! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] on triangle
-//! meshes. `docs/dcr.md` has measurements of the results of each: distances, coverage, spectra and angles.
+//! meshes, [`fn@volume::relax`] in cuboids. `docs/dcr.md` has measurements of the results in the plane and on meshes:
+//! distances, coverage, spectra and angles.
 //!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own
 //! test.
@@ -23,6 +24,7 @@ pub mod surface;
 mod thesis;
 mod torus;
 mod uniform;
+pub mod volume;
 
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
 pub use law::Neighbourhood;

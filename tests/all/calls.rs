@@ -76,6 +76,8 @@ static PIECE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
     let options = maximal::Options::new(0.003).domain(Domain { max: [0.5, 1.0], ..UNIT });
     maximal::sample(&Context::new(1).unwrap(), &options, None).unwrap().positions
 });
+static IN_CUBE: LazyLock<Vec<[f32; 3]>> =
+    LazyLock::new(|| POINTS.iter().zip(POINTS.iter().rev()).map(|(&[x, y], &[z, _])| [x, y, z]).collect());
 static MESH: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::fine_torus(60, 30)));
 static SOLID: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::welded(meshes::fine_torus(60, 30))));
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
@@ -449,6 +451,22 @@ fn by_vertex(radii: &[f32]) -> adaptive::Options<'_> {
 }
 
 const RELAXATION: &[Call] = &[
+    Call {
+        name: "dcr::volume::relax",
+        reports: 5,
+        run: |c, p| {
+            let options = dcr::volume::Options::new(CUBE).max_iterations(30);
+            relaxed(dcr::volume::relax(c, &options, &IN_CUBE, p), |report| report.stopped)
+        },
+        refused: &[
+            ("positions: ", |c, p| {
+                said(dcr::volume::relax(c, &dcr::volume::Options::new(CUBE), &[[0.5, 1.5, 0.5]], p))
+            }),
+            ("tolerance: ", |c, p| {
+                said(dcr::volume::relax(c, &dcr::volume::Options::new(CUBE).tolerance(-1.0), &IN_CUBE, p))
+            }),
+        ],
+    },
     Call {
         name: "dcr::relax",
         reports: 5,

@@ -21,6 +21,7 @@ mod dcr_density_report;
 mod dcr_few;
 mod dcr_starts;
 mod dcr_thesis;
+mod dcr_volume;
 mod differential;
 mod editable;
 mod editable_plane;
