@@ -5,6 +5,7 @@
 
 mod analysis;
 mod answer;
+mod density;
 mod edit;
 mod inside;
 mod mask;

@@ -109,6 +109,17 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     })
 }
 
+/// The matrix of classes of own radii.
+///
+/// # Safety
+/// `own` is valid for reads of `count` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_classes_radii(own: *const f64, count: usize, factor: f64) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let own = unsafe { rows(own, count) };
+    call(|_| Ok(Answer::default().and(Classes::of_radii(own, factor)?.radii().to_vec())))
+}
+
 /// Keeps the state that all windows of a plane share, of several classes if there are radii of theirs; the answer is empty, the handle is in `out`.
 ///
 /// # Safety
@@ -182,15 +193,13 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
             .tolerance(tolerance)
             .seed(seed);
         let (relaxed, report) = dcr::relax(context, &options, points, None)?;
-        let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
-        let report = vec![
-            iterations,
-            stopped,
-            report.motion,
-            report.smallest_distance,
-            report.rho,
-            report.relative_covering_radius,
-        ];
-        Ok(Answer::default().and(relaxed).and(report))
+        Ok(Answer::default().and(relaxed).and(relaxation(&report)))
     })
+}
+
+/// The number of iterations, the reason for stopping, motion, smallest distance, rho and relative covering radius.
+pub(crate) fn relaxation(report: &dcr::Report) -> Vec<f64> {
+    let dcr::Report { motion, smallest_distance, rho, relative_covering_radius, .. } = *report;
+    let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
+    vec![iterations, stopped, motion, smallest_distance, rho, relative_covering_radius]
 }
