@@ -124,7 +124,7 @@ function cpp({ call, options, file, window, own, factor, count, size, levels }) 
         `for (std::size_t i = 0; i < ${name}.size(); i++) ${name}[i] = float(i % ${size[0]}) / ${size[0]};`,
     ];
     if (call === "kdrt_window") {
-        body.push("azulejo::Kdrt plane = azulejo::Kdrt::create(context, options);");
+        body.push("azulejo::Kdrt plane(context, options);");
         body.push(`azulejo::Points points = plane.window(${list(window[0], "{", "}")}, ${list(window[1], "{", "}")});`);
     } else if (call === "psp_sample_classes") {
         body.push(`const std::vector<double> own = ${list(own, "{", "}")};`);

@@ -15,7 +15,7 @@ export const onScheme = (draw) => isDark.addEventListener("change", draw);
 
 export const whole = (n) => Number(n).toLocaleString("en");
 export const short = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(5))) : String(x));
-export const milliseconds = (ms) => (ms < 10 ? `${ms.toFixed(1)} ms` : ms < 10_000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`);
+export const milliseconds = (ms) => (ms < 10 ? `${ms.toFixed(1)} ms` : ms < 1000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(2)} s`);
 
 // The numbers of a form's fields by their names, and the text of its choices.
 export function fields(form) {

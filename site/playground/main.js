@@ -26,7 +26,10 @@ function show(name) {
 
 for (const [i, name] of names.entries()) {
     const tab = element(`tab-${name}`);
-    tab.addEventListener("click", () => history.replaceState(null, "", `#${name}`) ?? show(name));
+    tab.addEventListener("click", () => {
+        history.replaceState(null, "", `#/${name}`);
+        show(name);
+    });
     tab.addEventListener("keydown", (event) => {
         const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
         const next = { Home: 0, End: names.length - 1 }[event.key] ?? (step && (i + step + names.length) % names.length);
@@ -46,7 +49,8 @@ onWork((isWorking) => {
 });
 element("stop").addEventListener("click", stop);
 
-const shown = () => names.find((name) => `#${name}` === location.hash) ?? "plane";
+// Not the id of the panel: the browser would scroll to it.
+const shown = () => names.find((name) => `#/${name}` === location.hash) ?? "plane";
 addEventListener("hashchange", () => show(shown()));
 new ResizeObserver(() => begun.get(shown())?.draw()).observe(element("main"));
 show(shown());

@@ -4,7 +4,7 @@ import { Panel, colours, element, fitted, milliseconds, onScheme, takesFiles, wh
 import { greys, picture } from "./shapes.js";
 
 export function begin() {
-    let image = picture(320, 240);
+    let image = picture(250, 188);
     let made = null;
     const panel = new Panel("mask", () => run(), () => {
         const { side, levels, sigma, seed } = panel.values;

@@ -46,9 +46,9 @@ export function begin() {
         context.fillStyle = colour("raised");
         context.fillRect(0, 0, width, height);
         const columns = width > 1.5 * height ? 4 : 2;
-        const cell = width / columns;
+        const cell = Math.floor(width / columns);
         const [title, margin] = [18, 6];
-        const side = Math.min(cell - 2 * margin, height / (4 / columns) - title - margin);
+        const side = Math.floor(Math.min(cell - 2 * margin, height / (4 / columns) - title - margin));
         for (const [k, set] of result.sets.entries()) {
             const [left, top] = [(k % columns) * cell + margin, Math.floor(k / columns) * (side + title + margin) + title];
             context.fillStyle = colour("ink");

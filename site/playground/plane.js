@@ -41,7 +41,7 @@ export function begin() {
             drawn = { positions, min, max };
             const count = positions.length / 2;
             panel.figures([
-                ["samples in the whole plane", `about ${(SAMPLES / 1e11).toFixed(2)} × 10¹¹`],
+                ["samples in the plane", `about ${(SAMPLES / 1e11).toFixed(2)} × 10¹¹`],
                 ["radius, of a plane 2 wide", short(RADIUS)],
                 ["samples in this window", whole(count)],
                 ["time of this window", milliseconds(spent)],

@@ -153,7 +153,7 @@ export class Renderer {
         const [ca, sa, cb, sb] = [Math.cos(a), Math.sin(a), Math.cos(b), Math.sin(b)];
         // The rotation, row by row: about the screen's vertical axis, then its horizontal one.
         const rows = [[ca, 0, sa], [sb * sa, cb, -sb * ca], [-cb * sa, sb, cb * ca]];
-        const scale = (0.95 * this.zoom * Math.min(width, height)) / Math.min(width, height) / this.extent;
+        const scale = (1.3 * this.zoom) / this.extent;
         const wide = [scale * Math.min(1, height / width), scale * Math.min(1, width / height), -0.3 * scale / this.zoom];
         const view = new Float32Array(16);
         rows.forEach((row, r) => {
