@@ -123,6 +123,7 @@ function render(from, text) {
     rules.table_close = () => "</table></div>";
     rules.heading_close = (tokens, i) => {
         const id = tokens[i - 2].attrGet("id");
+        if (tokens[i].tag === "h1") return "</h1>\n";
         return `<a class="anchor" href="#${id}" aria-label="Link to this section">#</a></${tokens[i].tag}>\n`;
     };
     // Lines of Rust programs that begin with # are hidden, as rustdoc does.
@@ -148,7 +149,7 @@ async function markdownPage(path) {
 
 // The names that a line of an interface declares.
 const DECLARES = {
-    ".h": [/^(?:typedef .*|[a-z_][\w *]*)\b(azulejo_\w+)\(/, /^} (azulejo_\w+);/, /^typedef [^({]*\b(azulejo_\w+);/, /^#define (AZULEJO_\w+)/, /^typedef .*\(\*(azulejo_\w+)\)/],
+    ".h": [/^(?:typedef .*|[a-z_][\w *]*)\b(azulejo_\w+)\(/, /^} (azulejo_\w+);/, /^typedef [^({]*\b(azulejo_\w+);/, /^#define (AZULEJO_(?!\w+_H$)\w+)/, /^typedef .*\(\*(azulejo_\w+)\)/],
     ".hpp": [/^(?:class|struct) (\w+)(?! *;)/, /^using (\w+) =/, /^(?:inline|template).*?\b(\w+)\(/],
     ".pyi": [/^class (\w+)/, /^def (\w+)/],
     ".ts": [/^(?:export |declare )+(?:function|class|interface|type) (\w+)/],
@@ -232,7 +233,8 @@ const api = `<h1>API</h1>
 <h2>C++</h2><ul>${HEADERS.filter((path) => path.endsWith(".hpp")).map((path) => link(path, path)).join("")}</ul>
 <h2>Python</h2><ul>${link(TYPES[0], "azulejo.pyi")}${link("bindings/python/README.md", "The package")}</ul>
 <h2>JavaScript</h2><ul>${link(TYPES[1], "index.d.ts")}${link("bindings/js/README.md", "The package")}</ul>
-<h2>Rust</h2>${built.length > 0 ? `<ul>${built.map(([page, name]) => `<li><a href="${page}">${name}</a></li>`).join("")}</ul>`
+<h2>Rust</h2>
+${built.length > 0 ? `<ul>${built.map(([page, name]) => `<li><a href="${page}">${name}</a></li>`).join("")}</ul>`
         : "<p>Built by <code>scripts/docs.sh</code>, before the site; this site was built without.</p>"}`;
 await put("api.html", shell("api.html", "API", api, "API"));
 

@@ -19,6 +19,22 @@ export async function fromFile(file) {
     return { id: `file ${++files}`, name: file.name, bytes: await file.arrayBuffer() };
 }
 
+// The file that programs read a mesh from; a built-in one has to be saved before.
+export const fileOf = (mesh) => mesh.name ?? `${mesh.id}.obj`;
+
+// Saves a mesh as an OBJ file, with the very floats that it has here.
+export async function saveMesh(mesh) {
+    const { positions, indices } = await ask("mesh", { mesh });
+    const lines = [];
+    for (let i = 0; i < positions.length; i += 3) lines.push(`v ${positions[i]} ${positions[i + 1]} ${positions[i + 2]}`);
+    for (let i = 0; i < indices.length; i += 3) lines.push(`f ${indices[i] + 1} ${indices[i + 1] + 1} ${indices[i + 2] + 1}`);
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([lines.join("\n"), "\n"], { type: "text/plain" }));
+    link.download = fileOf(mesh).replace(/\.\w+$/, ".obj");
+    link.click();
+    URL.revokeObjectURL(link.href);
+}
+
 // Fields that have no meaning are not shown.
 export function showByAmount(form, hasClasses = false) {
     const isCount = form.elements.by.value === "count" && !hasClasses;
@@ -34,7 +50,7 @@ export function begin() {
 
     const panel = new Panel("mesh", () => sample(), () => {
         const { by, radius, count, seed, classes } = panel.values;
-        const file = mesh.name ?? `${mesh.id}.obj`;
+        const file = fileOf(mesh);
         if (classes > 1) {
             return { call: "psp_sample_classes", file, options: [["seed", seed]], own: own(), factor: 1 };
         }
@@ -141,6 +157,7 @@ export function begin() {
         });
     }
 
+    form.querySelector(".save").addEventListener("click", () => panel.trying(() => saveMesh(mesh)));
     form.elements.prefix.addEventListener("input", () => {
         draw();
         certify();

@@ -1,7 +1,7 @@
 // The inside of a box or of a closed mesh, and a cut through it.
 import { ask, latest } from "./library.js";
 import { Panel, colours, fitted, milliseconds, onScheme, short, takesFiles, whole } from "./controls.js";
-import { builtIn, fromFile, showByAmount } from "./mesh.js";
+import { builtIn, fileOf, fromFile, saveMesh, showByAmount } from "./mesh.js";
 
 const BOX = [[0, 0, 0], [2, 1, 1]];
 
@@ -15,7 +15,7 @@ export function begin() {
             return { call: "volume_sample", options };
         }
         const options = [amount, ...(first ? [["surface", "first"]] : []), ["seed", seed]];
-        return { call: "volume_sample_inside", file: mesh.name ?? `${mesh.id}.obj`, options };
+        return { call: "volume_sample_inside", file: fileOf(mesh), options };
     });
     const { canvas, form } = panel;
 
@@ -23,19 +23,18 @@ export function begin() {
         await panel.trying(async () => {
             showByAmount(form);
             const { by, radius, count, seed, first } = panel.values;
-            form.elements.first.closest("label").hidden = !mesh;
+            form.elements.first.closest("label").hidden = form.querySelector(".save").hidden = !mesh;
             const amount = by === "count" ? { count } : { radius };
             const options = mesh ? { ...amount, seed, surface: first ? "first" : "open" }
                 : { ...amount, seed, domainMin: BOX[0], domainMax: BOX[1], boundary: "bounded" };
             if (mesh && !outline) outline = await ask("mesh", { mesh });
             set = await ask("volume", { mesh, options });
-            const isApart = set.smallest >= set.radius;
             panel.figures([
                 ["samples", whole(set.positions.length / 3)],
                 ...(mesh ? [["of these on the surface", whole(set.surfaceSamples)]] : []),
                 ["radius", short(set.radius)],
                 ["smallest distance", short(set.smallest)],
-                ["conflicts", isApart ? "0" : "some", isApart],
+                ["conflicts", whole(set.conflicts), set.conflicts === 0],
                 ["farthest place, at most", short(set.coveringRadius)],
                 ...(mesh ? [["places may be open to a depth of", short(set.depth)]] : []),
                 ["time", milliseconds(set.milliseconds)],
@@ -124,6 +123,7 @@ export function begin() {
         event.stopPropagation();
         if (event.target.value !== "file") take(event.target.value === "box" ? null : builtIn(event.target.value));
     });
+    form.querySelector(".save").addEventListener("click", () => panel.trying(() => saveMesh(mesh)));
     form.elements.cut.addEventListener("input", draw);
     takesFiles(panel.root.querySelector(".stage"), form.querySelector("[type=file]"), async (file) => take(await fromFile(file)));
     onScheme(draw);

@@ -76,10 +76,11 @@ const tasks = {
         return { ...found, milliseconds };
     },
 
-    // The same of several classes: each must cover the mesh together with the classes of larger radii, to which it gives way.
+    // The same of several classes. Of gaps only those of the first class: it has the largest radius and covers the mesh by
+    // itself. Each other class covers it together with those before, at several distances.
     classCertificate({ mesh, positions, classes, radii, count }) {
         const [found, milliseconds] = timed(() => {
-            let [conflicts, gaps] = [0, 0];
+            let conflicts = 0;
             const sets = Array.from({ length: count }, (_, k) => ofClass(positions, classes, k));
             for (let k = 0; k < count; k++) {
                 const own = radii[k * count + k];
@@ -91,11 +92,8 @@ const tasks = {
                     conflicts += countConflicts(both, 3, radii[j * count + k], undefined, isPair);
                 }
             }
-            // Class 0 has the largest radius; nothing keeps it from covering all.
-            const first = azulejo.meshCoverage(meshOf(mesh), sets[0], radii[0]);
-            gaps += first.gaps;
-            const sizes = sets.map((set) => set.length / 3);
-            return { conflicts, gaps, sizes, smallest: azulejo.spaceSmallestDistance(positions), coveringRadius: first.coveringRadius };
+            const { gaps } = azulejo.meshCoverage(meshOf(mesh), sets[0], radii[0]);
+            return { conflicts, gaps, sizes: sets.map((set) => set.length / 3) };
         });
         return { ...found, milliseconds };
     },
@@ -133,7 +131,9 @@ const tasks = {
         const [set, milliseconds] = timed(() => (
             mesh ? azulejo.volumeSampleInside(meshOf(mesh), options) : azulejo.volumeSample(options)
         ));
-        return { ...set, smallest: azulejo.spaceSmallestDistance(set.positions), milliseconds };
+        const smallest = azulejo.spaceSmallestDistance(set.positions);
+        const conflicts = smallest >= set.radius ? 0 : countConflicts(set.positions, 3, set.radius);
+        return { ...set, smallest, conflicts, milliseconds };
     },
 
     mask({ options, image, levels }) {

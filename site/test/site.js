@@ -2,7 +2,7 @@
 // the page shows; nothing is written to the console, nothing is loaded from elsewhere, and no page is wider than the window.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import puppeteer from "puppeteer-core";
 import { serve } from "../serve.js";
@@ -29,6 +29,9 @@ const browser = await puppeteer.launch({
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
 });
 const page = await browser.newPage();
+rmSync(join(scratch, "knot.obj"), { force: true });
+const session = await page.createCDPSession();
+await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: scratch });
 const complaints = [];
 page.on("console", (message) => complaints.push(message.text()));
 page.on("pageerror", (error) => complaints.push(String(error)));
@@ -177,6 +180,10 @@ const JOBS = {
         assert.ok(await share("b > r + 60") > 0.01, "no samples are drawn");
         assert.ok(await share("Math.abs(b - r) < 40 && r < 230 && r > 40") > 0.05, "no mesh is drawn");
         const all = number((await figures()).samples);
+        // The program reads the mesh that the page has saved.
+        await page.click("#mesh .save");
+        for (let wait = 0; !existsSync(join(scratch, "knot.obj")) && wait < 200; wait++) await new Promise((resolve) => setTimeout(resolve, 50));
+        assert.equal(await programMakes(), all);
         await set({ prefix: 700 });
         await page.waitForFunction(() => [...document.querySelectorAll("#mesh dt")].some((term) => term.textContent === "samples of the prefix"));
         await page.waitForFunction(() => document.getElementById("stop").disabled);
