@@ -3,7 +3,7 @@
 // the package is installed. Those in Rust are written into FOLDER, for site/test.sh to check.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { copyFileSync, mkdirSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { LANGUAGES, write } from "../playground/code.js";
 
@@ -41,7 +41,10 @@ const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => `${k & 1} ${(k >> 1) & 1} ${
 const squares = ["0 2 3 1", "4 5 7 6", "0 1 5 4", "2 6 7 3", "0 4 6 2", "1 3 7 5"];
 writeFileSync(join(folder, mesh), `OFF\n8 6 0\n${corners.join("\n")}\n${squares.map((square) => `4 ${square}`).join("\n")}\n`);
 
-const hasPackage = spawnSync("python3", ["-c", "import azulejo, numpy"]).status === 0;
+// The environment that bindings/python/test.sh has made, or the machine's own.
+const made = resolve("target/python/clean/bin/python");
+const python = process.env.PYTHON ?? (existsSync(made) ? made : "python3");
+const hasPackage = spawnSync(python, ["-c", "import azulejo, numpy"]).status === 0;
 const counts = {};
 for (const [i, settings] of SETTINGS.entries()) {
     for (const language of LANGUAGES) {
@@ -54,7 +57,7 @@ for (const [i, settings] of SETTINGS.entries()) {
         if (language === "JavaScript") assert.match(run("node", file), /^\d+ samples|^the first level is [012]\n/);
         if (language === "Python") {
             run("python3", resolve("site/test/calls.py"), file, resolve("bindings/python/azulejo.pyi"));
-            if (hasPackage) assert.match(run("python3", file), /^\d+ samples|^the first level is [012]\n/);
+            if (hasPackage) assert.match(run(python, file), /^\d+ samples|^the first level is [012]\n/);
         }
         counts[language] = (counts[language] ?? 0) + 1;
     }
