@@ -88,6 +88,50 @@ export function kdrtSampleClasses(options: PlaneOptions, radii: Numbers): PlaneS
     classes: Uint32Array;
 };
 
+export interface MaximalOptions extends Domain {
+    /** The smallest distance of two samples, in the units of the domain. Required. */
+    radius: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/** A maximal set without the bias of tiles: slower, a reference. */
+export function maximalSample(options: MaximalOptions): {
+    /** x y of each sample. */
+    positions: Float32Array;
+};
+
+/** A set of a part of a plane, of whose samples no two are closer than the radius. */
+export interface Piece {
+    /** x y of each sample, with `min <= x < max`. */
+    positions: Numbers;
+    /** The lower corner of its rectangle; rectangles do not overlap. */
+    min: readonly [number, number];
+    /** The upper corner. */
+    max: readonly [number, number];
+}
+
+export interface KdrtMergeOptions extends Domain {
+    /** The smallest distance of two samples, that of the pieces. Required. */
+    radius: number;
+    /** Another seed fills the seams differently. Default 0. */
+    seed?: Seed;
+    /** True: the pieces are maximal, at least farther than the radius from their edges; only seams are tested. Default 0, false. */
+    maximalPieces?: boolean;
+}
+
+/** One maximal set of pieces, without seams. `fixed`: points that stay, the first samples of the result, x y each. */
+export function kdrtMerge(pieces: Iterable<Piece>, options: KdrtMergeOptions, fixed?: Numbers | null): {
+    /** x y of each sample. */
+    positions: Float32Array;
+    /** The number of samples of the pieces that are in the result. */
+    kept: number;
+    /** The number of those that are not. */
+    eliminated: number;
+    /** The number of new samples. */
+    inserted: number;
+};
+
 /**
  * The matrix of classes of own radii, row by row, with the cross radii of Wei (2010) times `factor`, 1 by default: with less the
  * classes depend less on each other.
@@ -448,6 +492,29 @@ export function dcrRelax(positions: Numbers, options?: RelaxOptions): Relaxation
     relativeCoveringRadius: number;
 };
 
+/** Moves points of several classes until all together and each class by itself are spread more evenly. */
+export function dcrRelaxClasses(
+    positions: Numbers,
+    classes: Numbers,
+    options?: Domain & {
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The motion at which the set has converged; default 0.001. */
+        tolerance?: number;
+        /** Used where points coincide only. Default 0. */
+        seed?: Seed;
+    },
+): Relaxation & {
+    /** x y of each point, in the order in which they came. */
+    positions: Float32Array;
+    /** The largest distance of a place of the domain from the set, in units of d_max. */
+    relativeCoveringRadius: number;
+    /** The rho of each class, in units of the d_max of its own number of points. */
+    classRho: Float64Array;
+    /** The covering radius of each class in the same units. */
+    classRelativeCoveringRadius: Float64Array;
+};
+
 /** An image of densities, 0 or more and not 0 everywhere, in any unit, that is stretched over the domain. */
 export interface DensityImage {
     /** The pixels, row by row; the first row lies along the lower side of the domain. */
@@ -550,6 +617,25 @@ export function meshCoverage(mesh: Mesh, positions: Numbers, radius: number): Co
 
 /** The smallest straight distance of positions in space, x y z each; Infinity for less than two. */
 export function spaceSmallestDistance(positions: Numbers): number;
+
+/** The share of the area of a mesh that is farther than a radius from positions, by random probes. */
+export function meshUncoveredFraction(
+    mesh: Mesh,
+    positions: Numbers,
+    radius: number,
+    options?: {
+        /** The number of probes; default 100,000. */
+        probes?: number;
+        /** Other seeds give other probes. Default 0. */
+        seed?: Seed;
+    },
+): number;
+
+/**
+ * The radial distribution function of points of the plane, in `bins` bins from 0 to `reach`, in units of d_max: 1 where pairs
+ * are as frequent as of random points.
+ */
+export function planeRadialDistribution(positions: Numbers, reach: number, bins: number, options?: Domain): Float64Array;
 
 /** The power spectrum of points of the plane. */
 export function spectrum(

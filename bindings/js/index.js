@@ -52,10 +52,14 @@ const INSIDE = {
     radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT,
     givenPositions: null, givenClearances: null,
 };
+const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
+const MERGE = { ...DOMAIN, radius: 0, seed: 0, maximalPieces: false };
+const PIECE = { positions: null, min: [0, 0], max: [1, 1] };
 const MASK = { width: 0, height: 0, depth: 1, channels: 1, seed: 0, sigma: 1.5 };
 const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
 const SCATTER = { ...DOMAIN, seed: 0 };
-const RELAX_DENSITY = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
+// Of several classes, and to a density.
+const RELAX_CLASSES = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
 const IMAGE = { values: null, width: 0, height: 0 };
 const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
@@ -232,6 +236,40 @@ export function kdrtSampleClasses(options, radii) {
         const types = [Float32Array, Uint32Array, Float32Array];
         const [positions, classes, ranks] = call.make("kdrt_sample_classes", args, ...types);
         return withRanks({ positions, classes }, ranks);
+    });
+}
+
+export function maximalSample(options) {
+    options = withDefaults(MAXIMAL, options);
+    return calling((call) => {
+        const args = [options.radius, ...domainOf(options), seedOf(options)];
+        return { positions: call.make("maximal_sample", args, Float32Array)[0] };
+    });
+}
+
+export function kdrtMerge(pieces, options, fixed = null) {
+    options = withDefaults(MERGE, options);
+    return calling((call) => {
+        const all = [...pieces].map((piece, index) => {
+            const { positions, min, max } = withDefaults(PIECE, piece);
+            const size = positions?.length;
+            if (!(size % 2 === 0)) throw new RangeError(`pieces: [${index}] has ${size} numbers, which are no rows of 2`);
+            return { positions, corners: [...corner("min", min), ...corner("max", max)] };
+        });
+        const samples = new Float32Array(all.reduce((sum, { positions }) => sum + positions.length, 0));
+        let filled = 0;
+        for (const { positions } of all) {
+            samples.set(positions, filled);
+            filled += positions.length;
+        }
+        const counts = call.rows("pieces", all.map(({ positions }) => positions.length / 2), Uint32Array, 1);
+        const args = [
+            options.radius, ...domainOf(options), seedOf(options), options.maximalPieces ? 1 : 0, ...counts,
+            call.rows("pieces", all.flatMap(({ corners }) => corners), Float64Array, 4)[0],
+            ...call.rows("pieces", samples, Float32Array, 2), ...call.rows("fixed", fixed, Float32Array, 2),
+        ];
+        const [positions, [kept, eliminated, inserted]] = call.make("kdrt_merge", args, Float32Array, Float64Array);
+        return { positions, kept, eliminated, inserted };
     });
 }
 
@@ -626,6 +664,20 @@ function relaxation([positions, report]) {
     return { positions, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho, relativeCoveringRadius };
 }
 
+export function dcrRelaxClasses(positions, classes, options) {
+    options = withDefaults(RELAX_CLASSES, options);
+    return calling((call) => {
+        const { maxIterations, tolerance } = options;
+        const args = [
+            ...domainOf(options), whole("maxIterations", maxIterations), tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 2), ...call.rows("classes", classes, Uint32Array, 1),
+        ];
+        const types = [Float32Array, Float64Array, Float64Array, Float64Array];
+        const [relaxed, report, classRho, classRelativeCoveringRadius] = call.make("dcr_relax_classes", args, ...types);
+        return { ...relaxation([relaxed, report]), classRho, classRelativeCoveringRadius };
+    });
+}
+
 // An image of densities: its values, and its size behind them.
 function image(call, density) {
     const { values, width, height } = withDefaults(IMAGE, density);
@@ -642,7 +694,7 @@ export function dcrScatter(density, count, options) {
 }
 
 export function dcrRelaxDensity(positions, density, options) {
-    options = withDefaults(RELAX_DENSITY, options);
+    options = withDefaults(RELAX_CLASSES, options);
     return calling((call) => {
         const { maxIterations, tolerance } = options;
         const args = [
@@ -721,6 +773,23 @@ export function spaceSmallestDistance(positions) {
     return calling((call) => {
         const args = call.rows("positions", positions, Float32Array, 3);
         return call.make("space_smallest_distance", args, Float64Array)[0][0];
+    });
+}
+
+export function meshUncoveredFraction(mesh, positions, radius, { probes = 100_000, seed = 0 } = {}) {
+    return calling((call) => {
+        const args = [
+            meshPointer(mesh), radius, BigInt(whole("probes", probes)), seedOf({ seed }), ...call.rows("positions", positions, Float32Array, 3),
+        ];
+        return call.make("mesh_uncovered_fraction", args, Float64Array)[0][0];
+    });
+}
+
+export function planeRadialDistribution(positions, reach, bins, options) {
+    options = withDefaults(DOMAIN, options);
+    return calling((call) => {
+        const args = [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2), reach, whole("bins", bins)];
+        return call.make("plane_radial_distribution", args, Float64Array)[0];
     });
 }
 

@@ -10,6 +10,7 @@ mod edit;
 mod inside;
 mod mask;
 mod memory;
+mod merge;
 mod plane;
 mod surface;
 mod surface_varying;

@@ -642,6 +642,73 @@ test("classes have the cross radii of Wei", () => {
     assert.throws(() => azulejo.classesRadii([0.1, 0]), /own: /);
 });
 
+test("pieces are merged without seams", () => {
+    const half = (min, max, seed) => {
+        const { positions } = azulejo.kdrtSample({ radius: 0.03, domainMin: min, domainMax: max, boundary: "bounded", seed });
+        return { positions, min, max };
+    };
+    const pieces = [half([0, 0], [0.5, 1], 1), half([0.5, 0], [1, 1], 2)];
+    const given = pieces[0].positions.length / 2 + pieces[1].positions.length / 2;
+    const merged = azulejo.kdrtMerge(pieces, { radius: 0.03, seed: 7 }, [0.25, 0.75]);
+    assert.deepEqual([...merged.positions.subarray(0, 2)], [0.25, 0.75]);
+    assert.equal(merged.positions.length / 2, 1 + merged.kept + merged.inserted);
+    assert.equal(merged.kept + merged.eliminated, given);
+    assert.ok(merged.eliminated > 0 && merged.inserted > 0);
+    assert.ok(smallest(merged.positions, 2, wrapped) >= 0.03);
+    assert.equal(azulejo.planeCoverage(merged.positions, 0.03).gaps, 0);
+    assert.deepEqual(azulejo.kdrtMerge(pieces, { radius: 0.03, seed: 7, maximalPieces: true }, [0.25, 0.75]), merged);
+    assert.ok(azulejo.kdrtMerge([], { radius: 0.1 }).inserted > 60);
+    assert.throws(() => azulejo.kdrtMerge([pieces[0], pieces[0]], { radius: 0.03 }), /pieces: /);
+    assert.throws(() => azulejo.kdrtMerge([{ ...pieces[0], positions: [0.5] }], { radius: 0.03 }), /pieces: \[0\]/);
+});
+
+test("the unbiased reference is conflict-free and maximal", () => {
+    for (const boundary of ["periodic", "bounded"]) {
+        const { positions } = azulejo.maximalSample({ radius: 0.04, boundary, seed: 5 });
+        assert.ok(smallest(positions, 2, boundary === "periodic" ? wrapped : (d) => d) >= 0.04);
+        assert.equal(azulejo.planeCoverage(positions, 0.04, { boundary }).gaps, 0);
+    }
+    assert.throws(() => azulejo.maximalSample({}), /radius: /);
+});
+
+test("classes are relaxed together and each by itself", () => {
+    const { positions, classes } = azulejo.kdrtSampleClasses({ seed: 1 }, azulejo.classesRadii([0.06, 0.04]));
+    const relaxed = azulejo.dcrRelaxClasses(positions, classes, { maxIterations: 60 });
+    assert.ok(Math.abs(relaxed.smallestDistance - smallest(relaxed.positions, 2, wrapped)) < 1e-9);
+    for (const wanted of [0, 1]) {
+        const own = relaxed.positions.filter((_, i) => classes[i >> 1] === wanted);
+        const hexagonal = Math.sqrt(2 / (Math.sqrt(3) * (own.length / 2)));
+        assert.ok(Math.abs(relaxed.classRho[wanted] - smallest(own, 2, wrapped) / hexagonal) < 1e-6);
+        assert.ok(relaxed.classRho[wanted] > 0.5 && relaxed.classRelativeCoveringRadius[wanted] < 1.2);
+    }
+    assert.throws(() => azulejo.dcrRelaxClasses(positions, classes.subarray(1)), /classes: /);
+});
+
+test("uncovered shares and radial distributions", () => {
+    const mesh = new azulejo.Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
+    const { positions } = azulejo.pspSample(mesh, { radius: 0.05 });
+    assert.equal(azulejo.meshUncoveredFraction(mesh, positions, 0.05), 0);
+    // A quarter of a disk around the right corner.
+    const share = azulejo.meshUncoveredFraction(mesh, [0, 0, 0], 0.4, { probes: 200_000 });
+    assert.ok(Math.abs(share - (1 - (Math.PI * 0.16) / 4 / 0.5)) < 0.005, `${share}`);
+    const { positions: set } = azulejo.kdrtSample({ count: 3000 });
+    const hexagonal = Math.sqrt(2 / (Math.sqrt(3) * 3000));
+    const density = azulejo.planeRadialDistribution(set, 3, 30);
+    // The share of ordered pairs in each bin over that of random points.
+    const found = new Array(30).fill(0);
+    for (let i = 0; i < 6000; i += 2) {
+        for (let j = 0; j < 6000; j += 2) {
+            const d = Math.hypot(wrapped(set[i] - set[j]), wrapped(set[i + 1] - set[j + 1])) / hexagonal;
+            if (i !== j && d < 3) found[Math.floor(10 * d)]++;
+        }
+    }
+    for (const [bin, count] of found.entries()) {
+        const area = Math.PI * (((bin + 1) / 10) ** 2 - (bin / 10) ** 2) * hexagonal ** 2;
+        assert.ok(Math.abs(density[bin] - count / (3000 * 2999 * area)) < 0.02, `bin ${bin}: ${density[bin]}`);
+    }
+    assert.throws(() => azulejo.planeRadialDistribution(set, 3, 0), /bins: /);
+});
+
 test("dots are as dense as an image is dark", () => {
     const density = { values: Float32Array.from({ length: 64 }, (_, i) => (i % 8 < 4 ? 1 : 3)), width: 8, height: 8 };
     const options = { boundary: "bounded", seed: 3 };
