@@ -172,9 +172,7 @@ function python({ call, options, file, window, own, factor, count, size, levels 
         out.push(`ranks = azulejo.mask_create(${args(given())})`);
         out.push("# Light from 0 to 1, row by row: put your picture here.");
         out.push(`image = np.tile(np.arange(${size[0]}) / ${size[0]}, (${size[1]}, 1))`);
-        out.push(`tile = np.resize((ranks + 0.5) / ranks.size, ranks.shape)`);
-        out.push("thresholds = np.tile(tile, [-(-a // b) for a, b in zip(image.shape, tile.shape)])[: image.shape[0], : image.shape[1]]");
-        out.push(`dithered = np.minimum(image * ${levels - 1} + thresholds, ${levels - 1}).astype(np.uint8)`);
+        out.push(`dithered = azulejo.mask_dither(ranks, image, ${levels})`);
         out.push('print("the first level is", dithered[0, 0])');
         return [...out, ""].join("\n");
     } else {
