@@ -2,7 +2,7 @@
 // the page shows; nothing is written to the console, nothing is loaded from elsewhere, and no page is wider than the window.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import puppeteer from "puppeteer-core";
 import { serve } from "../serve.js";
@@ -288,8 +288,17 @@ const JOBS = {
         assert.ok(await share("r > b + 60") > 0.002, "no samples of the surface");
         await upload(OPEN);
         assert.match(await message(), /^mesh: is not closed/);
-        await upload(CUBE);
-        await page.waitForFunction(() => document.querySelector("#volume .message").textContent === "");
+        // A file that is dropped, instead of chosen.
+        const made = await runs();
+        await page.$eval("#volume .stage", (stage, text) => {
+            const dataTransfer = new DataTransfer();
+            dataTransfer.items.add(new File([text], "dropped.off"));
+            stage.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+        }, String(readFileSync(CUBE)));
+        await settled(made + 1);
+        assert.equal(await message(), "");
+        assert.equal((await figures()).conflicts, "0");
+        assert.equal(await page.$eval('#volume [name="shape"]', (field) => field.value), "file");
         await set({ shape: "knot" });
     },
 
