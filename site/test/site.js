@@ -125,11 +125,9 @@ const JOBS = {
         assert.ok(count > 3000, `${count} samples`);
         assert.equal(await programMakes(), count);
         assert.ok(await share("b > r + 60") > 0.05, "no dots");
-        const { x, y, width, height } = await (await find(".stage canvas")).boundingBox();
         await page.$eval("#plane .stage canvas", (canvas) => canvas.scrollIntoView({ block: "center" }));
-        const box = await (await find(".stage canvas")).boundingBox();
-        const middle = [box.x + width / 2, box.y + height / 2];
-        assert.ok(x >= 0 && y !== undefined);
+        const { x, y, width, height } = await (await find(".stage canvas")).boundingBox();
+        const middle = [x + width / 2, y + height / 2];
         let made = await runs();
         await page.mouse.move(...middle);
         await page.mouse.down();
