@@ -4,7 +4,7 @@
 #   scripts/test.sh          what a change must pass on its author's machine: format, lints, all Rust tests, the C
 #                            package, C and C++ programs, the code in README and guides
 #   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, sanitizers, valgrind, Miri, fuzzing,
-#                            Python, JavaScript, other processors and systems, Embree 4.3, packages in clean roots
+#                            Python, JavaScript, the site, other processors and systems, Embree 4.3, packages in clean roots
 #   scripts/test.sh --long   once a week: also fresh seeds for the property tests, a minute of fuzzing for each target,
 #                            guarantees that are broken to see a test fail, all Rust tests and sums everywhere
 #
@@ -158,6 +158,7 @@ all_stages() {
     stage "Packages of crates, and recipes for vcpkg, conan and conda" packaging/test.sh
     stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh
     stage "Blender extension: its manifest, and that its files compile" integrations/blender/test.sh --brief
+    stage "Site: links, programs of the playground, pages in headless Chromium" site/test.sh
     stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
     if has_clean_root; then
         stage "Debian packages: installed, used and removed in a clean root of $release" \

@@ -88,6 +88,56 @@ export function kdrtSampleClasses(options: PlaneOptions, radii: Numbers): PlaneS
     classes: Uint32Array;
 };
 
+export interface MaximalOptions extends Domain {
+    /** The smallest distance of two samples, in the units of the domain. Required. */
+    radius: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/** A maximal set without the bias of tiles: slower, a reference. */
+export function maximalSample(options: MaximalOptions): {
+    /** x y of each sample. */
+    positions: Float32Array;
+};
+
+/** A set of a part of a plane, of whose samples no two are closer than the radius. */
+export interface Piece {
+    /** x y of each sample, with `min <= x < max`. */
+    positions: Numbers;
+    /** The lower corner of its rectangle; rectangles do not overlap. */
+    min: readonly [number, number];
+    /** The upper corner. */
+    max: readonly [number, number];
+}
+
+export interface KdrtMergeOptions extends Domain {
+    /** The smallest distance of two samples, that of the pieces. Required. */
+    radius: number;
+    /** Another seed fills the seams differently. Default 0. */
+    seed?: Seed;
+    /** True: the pieces are maximal, at least farther than the radius from their edges; only seams are tested. Default 0, false. */
+    maximalPieces?: boolean;
+}
+
+/** One maximal set of pieces, without seams. `fixed`: points that stay, the first samples of the result, x y each. */
+export function kdrtMerge(pieces: Iterable<Piece>, options: KdrtMergeOptions, fixed?: Numbers | null): {
+    /** x y of each sample. */
+    positions: Float32Array;
+    /** The number of samples of the pieces that are in the result. */
+    kept: number;
+    /** The number of those that are not. */
+    eliminated: number;
+    /** The number of new samples. */
+    inserted: number;
+};
+
+/**
+ * The matrix of classes of own radii, row by row, with the cross radii of Wei (2010) times `factor`, 1 by default: with less the
+ * classes depend less on each other.
+ */
+export function classesRadii(own: Numbers, factor?: number): Float64Array;
+
 /** Something in the module's memory: freed by `free`, by `using`, or some time after nothing refers to it. */
 declare class Handle {
     /** Frees it; may be called again. */
@@ -112,6 +162,13 @@ export class Mesh extends Handle {
     constructor(positions: Numbers, indices: Numbers);
     /** The area of all triangles. */
     readonly area: number;
+    /**
+     * A mesh from the bytes of a file: OBJ, PLY, STL or OFF, by the extension of its name or else by its contents. Polygons
+     * become triangles.
+     */
+    static parse(name: string, bytes: ArrayBuffer | Uint8Array): Mesh;
+    /** Copies of its arrays: x y z of each vertex, less the `origin`; three vertices of each triangle. */
+    arrays(): { positions: Float32Array; indices: Uint32Array; origin: Float64Array };
 }
 
 export interface SurfaceOptions extends Given, Ordering {
@@ -382,6 +439,27 @@ export interface MaskOptions {
  */
 export function maskCreate(options: MaskOptions): Uint32Array;
 
+/** An image: a number for each pixel and channel, those of one pixel after each other; x first, then y, then z. */
+export interface DitheredImage {
+    /** Bytes from 0 to 255 in a Uint8Array or Uint8ClampedArray; in other arrays numbers, of which 0 to 1 count. Required. */
+    values: Numbers;
+    /** The pixels along x. Required. */
+    width: number;
+    /** The pixels along y. Required. */
+    height: number;
+    /** The pixels along z; default 1. */
+    depth?: number;
+    /** The numbers of a pixel; default 1. */
+    channels?: number;
+}
+
+/**
+ * An image in 2 to 256 levels, by default 2: for each of its numbers the level, 0 to `levels` - 1. `ranks`: those of
+ * maskCreate, with the options `mask`; the mask is repeated over the image, its channels over those of the image. Light adds
+ * up where numbers are linear, which those of sRGB are not.
+ */
+export function maskDither(ranks: Numbers, mask: MaskOptions, image: DitheredImage, levels?: number): Uint8Array;
+
 export interface RelaxOptions extends Domain {
     /** `delaunay`, the default: neighbours keep their distance and close holes. `nearest`: they only repel. */
     neighbourhood?: "delaunay" | "nearest";
@@ -411,6 +489,68 @@ export function dcrRelax(positions: Numbers, options?: RelaxOptions): Relaxation
     /** x y of each point, in the order in which they came. */
     positions: Float32Array;
     /** The largest distance of a place of the domain from the set, in units of d_max. */
+    relativeCoveringRadius: number;
+};
+
+/** Moves points of several classes until all together and each class by itself are spread more evenly. */
+export function dcrRelaxClasses(
+    positions: Numbers,
+    classes: Numbers,
+    options?: Domain & {
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The motion at which the set has converged; default 0.001. */
+        tolerance?: number;
+        /** Used where points coincide only. Default 0. */
+        seed?: Seed;
+    },
+): Relaxation & {
+    /** x y of each point, in the order in which they came. */
+    positions: Float32Array;
+    /** The largest distance of a place of the domain from the set, in units of d_max. */
+    relativeCoveringRadius: number;
+    /** The rho of each class, in units of the d_max of its own number of points. */
+    classRho: Float64Array;
+    /** The covering radius of each class in the same units. */
+    classRelativeCoveringRadius: Float64Array;
+};
+
+/** An image of densities, 0 or more and not 0 everywhere, in any unit, that is stretched over the domain. */
+export interface DensityImage {
+    /** The pixels, row by row; the first row lies along the lower side of the domain. */
+    values: Numbers;
+    /** Pixels in a row. */
+    width: number;
+    /** Rows. */
+    height: number;
+}
+
+/** Random points with a density, x y of each: a start for dcrRelaxDensity. */
+export function dcrScatter(
+    density: DensityImage,
+    count: number,
+    options?: Domain & {
+        /** Another seed gives other points. Default 0. */
+        seed?: Seed;
+    },
+): { positions: Float32Array };
+
+/** Moves points, x y each, until they are spread as a density wants: stippling. Lengths are in units of the local spacing. */
+export function dcrRelaxDensity(
+    positions: Numbers,
+    density: DensityImage,
+    options?: Domain & {
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The motion at which the set has converged; default 0.001. */
+        tolerance?: number;
+        /** Used where points coincide or are far from the density. Default 0. */
+        seed?: Seed;
+    },
+): Relaxation & {
+    /** x y of each point, in the order in which they came. */
+    positions: Float32Array;
+    /** The largest circumradius of three neighbours, in units of the local spacing. */
     relativeCoveringRadius: number;
 };
 
@@ -461,6 +601,41 @@ export function planeMeasure(positions: Numbers, options?: Domain): Spacing;
 
 /** Measures positions on a mesh, x y z each; distances are straight. */
 export function meshMeasure(mesh: Mesh, positions: Numbers): Spacing;
+
+export interface Coverage {
+    /** The distance from the set of the place that is farthest from it. */
+    coveringRadius: number;
+    /** The number of connected places that are farther than the radius from the set, by more than the rounding of floats. */
+    gaps: number;
+}
+
+/** The gaps of points of the plane, x y each, for a radius: 0 of a maximal set. */
+export function planeCoverage(positions: Numbers, radius: number, options?: Domain): Coverage;
+
+/** The gaps of positions on a mesh, x y z each, for a radius. */
+export function meshCoverage(mesh: Mesh, positions: Numbers, radius: number): Coverage;
+
+/** The smallest straight distance of positions in space, x y z each; Infinity for less than two. */
+export function spaceSmallestDistance(positions: Numbers): number;
+
+/** The share of the area of a mesh that is farther than a radius from positions, by random probes. */
+export function meshUncoveredFraction(
+    mesh: Mesh,
+    positions: Numbers,
+    radius: number,
+    options?: {
+        /** The number of probes; default 100,000. */
+        probes?: number;
+        /** Other seeds give other probes. Default 0. */
+        seed?: Seed;
+    },
+): number;
+
+/**
+ * The radial distribution function of points of the plane, in `bins` bins from 0 to `reach`, in units of d_max: 1 where pairs
+ * are as frequent as of random points.
+ */
+export function planeRadialDistribution(positions: Numbers, reach: number, bins: number, options?: Domain): Float64Array;
 
 /** The power spectrum of points of the plane. */
 export function spectrum(

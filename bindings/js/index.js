@@ -52,8 +52,16 @@ const INSIDE = {
     radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT,
     givenPositions: null, givenClearances: null,
 };
+const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
+const MERGE = { ...DOMAIN, radius: 0, seed: 0, maximalPieces: false };
+const PIECE = { positions: null, min: [0, 0], max: [1, 1] };
 const MASK = { width: 0, height: 0, depth: 1, channels: 1, seed: 0, sigma: 1.5 };
 const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
+const SCATTER = { ...DOMAIN, seed: 0 };
+// Of several classes, and to a density.
+const RELAX_CLASSES = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
+const IMAGE = { values: null, width: 0, height: 0 };
+const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
 const THIN = { radius: 0, count: 0, order: "any", seed: 0 };
 const SPECTRUM = { ...DOMAIN, size: 256, width: 0.02 };
@@ -216,6 +224,10 @@ function matrix(call, { radius, count }, radii) {
     return call.rows("radii", radii, Float64Array, 1);
 }
 
+export function classesRadii(own, factor = 1) {
+    return calling((call) => call.make("classes_radii", [...call.rows("own", own, Float64Array, 1), factor], Float64Array)[0]);
+}
+
 export function kdrtSampleClasses(options, radii) {
     options = withDefaults(PLANE, options);
     return calling((call) => {
@@ -224,6 +236,40 @@ export function kdrtSampleClasses(options, radii) {
         const types = [Float32Array, Uint32Array, Float32Array];
         const [positions, classes, ranks] = call.make("kdrt_sample_classes", args, ...types);
         return withRanks({ positions, classes }, ranks);
+    });
+}
+
+export function maximalSample(options) {
+    options = withDefaults(MAXIMAL, options);
+    return calling((call) => {
+        const args = [options.radius, ...domainOf(options), seedOf(options)];
+        return { positions: call.make("maximal_sample", args, Float32Array)[0] };
+    });
+}
+
+export function kdrtMerge(pieces, options, fixed = null) {
+    options = withDefaults(MERGE, options);
+    return calling((call) => {
+        const all = [...pieces].map((piece, index) => {
+            const { positions, min, max } = withDefaults(PIECE, piece);
+            const size = positions?.length;
+            if (!(size % 2 === 0)) throw new RangeError(`pieces: [${index}] has ${size} numbers, which are no rows of 2`);
+            return { positions, corners: [...corner("min", min), ...corner("max", max)] };
+        });
+        const samples = new Float32Array(all.reduce((sum, { positions }) => sum + positions.length, 0));
+        let filled = 0;
+        for (const { positions } of all) {
+            samples.set(positions, filled);
+            filled += positions.length;
+        }
+        const counts = call.rows("pieces", all.map(({ positions }) => positions.length / 2), Uint32Array, 1);
+        const args = [
+            options.radius, ...domainOf(options), seedOf(options), options.maximalPieces ? 1 : 0, ...counts,
+            call.rows("pieces", all.flatMap(({ corners }) => corners), Float64Array, 4)[0],
+            ...call.rows("pieces", samples, Float32Array, 2), ...call.rows("fixed", fixed, Float32Array, 2),
+        ];
+        const [positions, [kept, eliminated, inserted]] = call.make("kdrt_merge", args, Float32Array, Float64Array);
+        return { positions, kept, eliminated, inserted };
     });
 }
 
@@ -284,8 +330,16 @@ export class KdrtPlane extends Handle {
     }
 }
 
+// The first argument of a Mesh that exists in the module's memory.
+const PARSED = Symbol("parsed");
+
 export class Mesh extends Handle {
     constructor(positions, indices) {
+        if (positions === PARSED) {
+            super("mesh", indices.pointer);
+            this.area = indices.area;
+            return;
+        }
         let area;
         const pointer = calling((call) => {
             const out = call.handle();
@@ -297,6 +351,27 @@ export class Mesh extends Handle {
         });
         super("mesh", pointer);
         this.area = area;
+    }
+
+    static parse(name, bytes) {
+        let area;
+        const pointer = calling((call) => {
+            const out = call.handle();
+            const text = new TextEncoder().encode(String(name));
+            const contents = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
+            const args = [...call.rows("name", text, Uint8Array, 1), ...call.rows("bytes", contents, Uint8Array, 1), out];
+            [[area]] = call.make("mesh_parse", args, Float64Array);
+            return read(out);
+        });
+        return new Mesh(PARSED, { pointer, area });
+    }
+
+    arrays() {
+        return calling((call) => {
+            const types = [Float32Array, Uint32Array, Float64Array];
+            const [positions, indices, origin] = call.make("mesh_arrays", [this.pointer], ...types);
+            return { positions, indices, origin };
+        });
     }
 }
 
@@ -359,6 +434,39 @@ export function maskCreate(options) {
     options = withDefaults(MASK, options);
     const sizes = ["width", "height", "depth", "channels"].map((name) => whole(name, options[name]));
     return calling((call) => call.make("mask_create", [...sizes, seedOf(options), options.sigma], Uint32Array)[0]);
+}
+
+// The numbers of mask.dither in the Rust library, in the same arithmetic: there is nothing to hand over to the module.
+export function maskDither(ranks, mask, image, levels = 2) {
+    mask = withDefaults(MASK, mask);
+    image = withDefaults(DITHERED, image);
+    const axes = ["width", "height", "depth", "channels"];
+    const [width, height, depth, channels] = axes.map((name) => whole(name, mask[name]));
+    const pixels = width * height * depth;
+    if (pixels === 0 || channels === 0 || ranks?.length !== pixels * channels) {
+        throw new RangeError(`ranks: ${ranks?.length} are not those of ${width} x ${height} x ${depth} pixels in ${channels} channels`);
+    }
+    whole("levels", levels, 257);
+    if (levels < 2) throw new RangeError(`levels: ${levels} is not in 2..=256`);
+    const [columns, rows, slices, numbers] = axes.map((name) => whole(name, image[name]));
+    const { values } = image;
+    if (numbers === 0 || values?.length !== columns * rows * slices * numbers) {
+        throw new RangeError(`values: ${values?.length} are not ${columns} x ${rows} x ${slices} pixels of ${numbers} channels`);
+    }
+    const isBytes = values instanceof Uint8Array || values instanceof Uint8ClampedArray;
+    const out = new Uint8Array(values.length);
+    for (let row = 0, i = 0; row < rows * slices; row++) {
+        const tile = ((Math.floor(row / rows) % depth) * height + ((row % rows) % height)) * width;
+        for (let x = 0; x < columns; x++) {
+            for (let channel = 0; channel < numbers; channel++, i++) {
+                const number = isBytes ? values[i] / 255 : Math.min(Math.max(Math.fround(values[i]), 0), 1);
+                if (Number.isNaN(number)) throw new RangeError(`values: [${i}] is ${values[i]}, not finite`);
+                const threshold = (ranks[(channel % channels) * pixels + tile + (x % width)] + 0.5) / pixels;
+                out[i] = Math.min(number * (levels - 1) + threshold, levels - 1);
+            }
+        }
+    }
+    return out;
 }
 
 function density(of) {
@@ -546,11 +654,54 @@ export function dcrRelax(positions, options) {
             ...domainOf(options), constant("neighbourhood", neighbourhood, NEIGHBOURHOODS),
             whole("maxIterations", maxIterations), tolerance, seedOf(options), ...call.rows("positions", positions, Float32Array, 2),
         ];
-        const [relaxed, report] = call.make("dcr_relax", args, Float32Array, Float64Array);
-        const [iterations, stopped, motion, smallestDistance, rho, relativeCoveringRadius] = report;
-        return {
-            positions: relaxed, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho, relativeCoveringRadius,
-        };
+        return relaxation(call.make("dcr_relax", args, Float32Array, Float64Array));
+    });
+}
+
+// Relaxed points of the plane.
+function relaxation([positions, report]) {
+    const [iterations, stopped, motion, smallestDistance, rho, relativeCoveringRadius] = report;
+    return { positions, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho, relativeCoveringRadius };
+}
+
+export function dcrRelaxClasses(positions, classes, options) {
+    options = withDefaults(RELAX_CLASSES, options);
+    return calling((call) => {
+        const { maxIterations, tolerance } = options;
+        const args = [
+            ...domainOf(options), whole("maxIterations", maxIterations), tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 2), ...call.rows("classes", classes, Uint32Array, 1),
+        ];
+        const types = [Float32Array, Float64Array, Float64Array, Float64Array];
+        const [relaxed, report, classRho, classRelativeCoveringRadius] = call.make("dcr_relax_classes", args, ...types);
+        return { ...relaxation([relaxed, report]), classRho, classRelativeCoveringRadius };
+    });
+}
+
+// An image of densities: its values, and its size behind them.
+function image(call, density) {
+    const { values, width, height } = withDefaults(IMAGE, density);
+    if (values === null) throw new TypeError("values: a density needs some");
+    return [...call.rows("density", values, Float32Array, 1), whole("width", width), whole("height", height)];
+}
+
+export function dcrScatter(density, count, options) {
+    options = withDefaults(SCATTER, options);
+    return calling((call) => {
+        const args = [...domainOf(options), whole("count", count), seedOf(options), ...image(call, density)];
+        return { positions: call.make("dcr_scatter", args, Float32Array)[0] };
+    });
+}
+
+export function dcrRelaxDensity(positions, density, options) {
+    options = withDefaults(RELAX_CLASSES, options);
+    return calling((call) => {
+        const { maxIterations, tolerance } = options;
+        const args = [
+            ...domainOf(options), whole("maxIterations", maxIterations), tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 2), ...image(call, density),
+        ];
+        return relaxation(call.make("dcr_relax_density", args, Float32Array, Float64Array));
     });
 }
 
@@ -598,6 +749,47 @@ export function meshMeasure(mesh, positions) {
         const args = [meshPointer(mesh), ...call.rows("positions", positions, Float32Array, 3)];
         const [[smallestDistance, coveringRadius]] = call.make("mesh_measure", args, Float64Array);
         return { smallestDistance, coveringRadius };
+    });
+}
+
+export function planeCoverage(positions, radius, options) {
+    options = withDefaults(DOMAIN, options);
+    return calling((call) => {
+        const args = [...domainOf(options), radius, ...call.rows("positions", positions, Float32Array, 2)];
+        const [[coveringRadius, gaps]] = call.make("plane_coverage", args, Float64Array);
+        return { coveringRadius, gaps };
+    });
+}
+
+export function meshCoverage(mesh, positions, radius) {
+    return calling((call) => {
+        const args = [meshPointer(mesh), radius, ...call.rows("positions", positions, Float32Array, 3)];
+        const [[coveringRadius, gaps]] = call.make("mesh_coverage", args, Float64Array);
+        return { coveringRadius, gaps };
+    });
+}
+
+export function spaceSmallestDistance(positions) {
+    return calling((call) => {
+        const args = call.rows("positions", positions, Float32Array, 3);
+        return call.make("space_smallest_distance", args, Float64Array)[0][0];
+    });
+}
+
+export function meshUncoveredFraction(mesh, positions, radius, { probes = 100_000, seed = 0 } = {}) {
+    return calling((call) => {
+        const args = [
+            meshPointer(mesh), radius, BigInt(whole("probes", probes)), seedOf({ seed }), ...call.rows("positions", positions, Float32Array, 3),
+        ];
+        return call.make("mesh_uncovered_fraction", args, Float64Array)[0][0];
+    });
+}
+
+export function planeRadialDistribution(positions, reach, bins, options) {
+    options = withDefaults(DOMAIN, options);
+    return calling((call) => {
+        const args = [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2), reach, whole("bins", bins)];
+        return call.make("plane_radial_distribution", args, Float64Array)[0];
     });
 }
 

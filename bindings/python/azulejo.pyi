@@ -530,6 +530,7 @@ def mask_create(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> NDArray[np.uint32]: ...
+def mask_dither(ranks: ArrayLike, image: ArrayLike, levels: SupportsIndex = 2) -> NDArray[np.uint8]: ...
 def kdrt_merge(
     pieces: Sequence[tuple[ArrayLike, _Numbers, _Numbers]],
     radius: SupportsFloat,

@@ -1,6 +1,9 @@
 //! Measurements of sets.
 
-use azulejo::analysis::coverage::{covering_radius_2d, surface_covering_radius};
+use azulejo::analysis::coverage::{
+    coverage_2d, covering_radius_2d, surface_coverage, surface_covering_radius, surface_uncovered_fraction,
+};
+use azulejo::analysis::distribution::radial_distribution;
 use azulejo::analysis::spacing::{smallest_distance_2d, smallest_distance_3d};
 use azulejo::analysis::spectrum::periodogram;
 
@@ -43,6 +46,104 @@ pub unsafe extern "C" fn azulejo_mesh_measure(mesh: &Handle, positions: *const [
     call(|context| {
         let smallest = smallest_distance_3d(context, positions, None)?;
         Ok(Answer::default().and(vec![smallest, surface_covering_radius(context, &mesh.0, positions, None)?]))
+    })
+}
+
+/// The covering radius of a set of the plane, and its gaps for a radius.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_coverage(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    radius: f64,
+    points: *const [f32; 2],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context| {
+        let found = coverage_2d(context, &domain(min_x, min_y, max_x, max_y, bounded), points, radius, None)?;
+        Ok(Answer::default().and(vec![found.farthest, found.gaps as f64]))
+    })
+}
+
+/// The covering radius of positions on a mesh, and their gaps for a radius.
+///
+/// # Safety
+/// `positions` is valid for reads of `count` positions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_coverage(
+    mesh: &Handle,
+    radius: f64,
+    positions: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let positions = unsafe { rows(positions, count) };
+    call(|context| {
+        let found = surface_coverage(context, &mesh.0, positions, radius, None)?;
+        Ok(Answer::default().and(vec![found.farthest, found.gaps as f64]))
+    })
+}
+
+/// The smallest straight distance of positions in space.
+///
+/// # Safety
+/// `positions` is valid for reads of `count` positions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_smallest_distance(positions: *const [f32; 3], count: usize) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let positions = unsafe { rows(positions, count) };
+    call(|context| Ok(Answer::default().and(vec![smallest_distance_3d(context, positions, None)?])))
+}
+
+/// The share of a mesh that is farther than `radius` from positions, by random probes.
+///
+/// # Safety
+/// `positions` is valid for reads of `count` positions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
+    mesh: &Handle,
+    radius: f64,
+    probes: u64,
+    seed: u64,
+    positions: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let positions = unsafe { rows(positions, count) };
+    call(|context| {
+        let share = surface_uncovered_fraction(context, &mesh.0, positions, radius, probes, seed, None)?;
+        Ok(Answer::default().and(vec![share]))
+    })
+}
+
+/// The radial distribution function of a set of the plane.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_radial_distribution(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    points: *const [f32; 2],
+    count: usize,
+    reach: f64,
+    bins: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context| {
+        let domain = domain(min_x, min_y, max_x, max_y, bounded);
+        Ok(Answer::default().and(radial_distribution(context, &domain, points, reach, bins, None)?.density()))
     })
 }
 

@@ -5,10 +5,12 @@
 
 mod analysis;
 mod answer;
+mod density;
 mod edit;
 mod inside;
 mod mask;
 mod memory;
+mod merge;
 mod plane;
 mod surface;
 mod surface_varying;

@@ -2,7 +2,7 @@
 
 use azulejo::dcr::{self, Neighbourhood};
 use azulejo::kdrt::{self, CountOptions, Kind, Options, Plane, Progressive};
-use azulejo::{Boundary, Classes, Domain, Given};
+use azulejo::{Boundary, Classes, Domain, Given, maximal};
 
 use crate::answer::{Answer, call};
 use crate::memory::rows;
@@ -109,6 +109,34 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     })
 }
 
+/// The samples of the unbiased reference.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_maximal_sample(
+    radius: f64,
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    seed: u64,
+) -> i32 {
+    call(|context| {
+        let options = maximal::Options::new(radius).domain(domain(min_x, min_y, max_x, max_y, bounded)).seed(seed);
+        Ok(Answer::default().and(maximal::sample(context, &options, None)?.positions))
+    })
+}
+
+/// The matrix of classes of own radii.
+///
+/// # Safety
+/// `own` is valid for reads of `count` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_classes_radii(own: *const f64, count: usize, factor: f64) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let own = unsafe { rows(own, count) };
+    call(|_| Ok(Answer::default().and(Classes::of_radii(own, factor)?.radii().to_vec())))
+}
+
 /// Keeps the state that all windows of a plane share, of several classes if there are radii of theirs; the answer is empty, the handle is in `out`.
 ///
 /// # Safety
@@ -182,15 +210,47 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
             .tolerance(tolerance)
             .seed(seed);
         let (relaxed, report) = dcr::relax(context, &options, points, None)?;
-        let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
-        let report = vec![
-            iterations,
-            stopped,
-            report.motion,
-            report.smallest_distance,
-            report.rho,
-            report.relative_covering_radius,
-        ];
-        Ok(Answer::default().and(relaxed).and(report))
+        Ok(Answer::default().and(relaxed).and(relaxation(&report)))
     })
+}
+
+/// The relaxed points of several classes, the numbers of [`relaxation`], rho of each class, and the relative covering radius of
+/// each.
+///
+/// # Safety
+/// The pointers are valid for reads of so many points and classes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_relax_classes(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    max_iterations: u32,
+    tolerance: f64,
+    seed: u64,
+    points: *const [f32; 2],
+    count: usize,
+    classes: *const u32,
+    class_count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let (points, classes) = unsafe { (rows(points, count), rows(classes, class_count)) };
+    call(|context| {
+        let options = dcr::DelaunayOptions::new(domain(min_x, min_y, max_x, max_y, bounded))
+            .max_iterations(max_iterations)
+            .tolerance(tolerance)
+            .seed(seed);
+        let (relaxed, report, each) = dcr::relax_classes(context, &options, points, classes, None)?;
+        let rho: Vec<f64> = each.iter().map(|class| class.rho).collect();
+        let covering: Vec<f64> = each.iter().map(|class| class.relative_covering_radius).collect();
+        Ok(Answer::default().and(relaxed).and(relaxation(&report)).and(rho).and(covering))
+    })
+}
+
+/// The number of iterations, the reason for stopping, motion, smallest distance, rho and relative covering radius.
+pub(crate) fn relaxation(report: &dcr::Report) -> Vec<f64> {
+    let dcr::Report { motion, smallest_distance, rho, relative_covering_radius, .. } = *report;
+    let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
+    vec![iterations, stopped, motion, smallest_distance, rho, relative_covering_radius]
 }

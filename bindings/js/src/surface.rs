@@ -36,6 +36,36 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     })
 }
 
+/// A mesh from the bytes of a file, whose name tells the format; the handle is in `out`, the area in the answer.
+///
+/// # Safety
+/// The pointers are valid for reads of so many bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_mesh_parse(
+    name: *const u8,
+    name_length: usize,
+    bytes: *const u8,
+    length: usize,
+    out: &mut Option<Box<Handle>>,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let (name, bytes) = unsafe { (rows(name, name_length), rows(bytes, length)) };
+    call(|_| {
+        let mesh = Mesh::parse(String::from_utf8_lossy(name).as_ref(), bytes)?;
+        let area = vec![mesh.area()];
+        *out = Some(Box::new(Handle(Arc::new(mesh))));
+        Ok(Answer::default().and(area))
+    })
+}
+
+/// The positions and triangles of a mesh, and its origin.
+#[unsafe(no_mangle)]
+pub extern "C" fn azulejo_mesh_arrays(mesh: &Handle) -> i32 {
+    let mesh = &mesh.0;
+    let indices: Vec<u32> = mesh.triangles().as_flattened().to_vec();
+    call(|_| Ok(Answer::default().and(mesh.positions().to_vec()).and(indices).and(mesh.origin().to_vec())))
+}
+
 /// Frees a mesh.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_free(mesh: Option<Box<Handle>>) {

@@ -592,6 +592,157 @@ test("errors name the argument, and leave the module usable", () => {
     assert.ok(azulejo.kdrtSample({ radius: 0.1 }).positions.length > 0);
 });
 
+test("gaps are counted", () => {
+    const { positions } = azulejo.kdrtSample({ radius: 0.05, seed: 2 });
+    assert.deepEqual(azulejo.planeCoverage(positions, 0.05).gaps, 0);
+    // Without two samples that are far apart there are two gaps, or more where a neighbour's disk divides one.
+    const [x, y] = positions;
+    const isFar = (i) => Math.hypot(wrapped(positions[i] - x), wrapped(positions[i + 1] - y)) > 0.3;
+    const other = Array.from({ length: positions.length / 2 }, (_, i) => 2 * i).find(isFar);
+    const rest = positions.filter((_, i) => i > 1 && i !== other && i !== other + 1);
+    const { gaps, coveringRadius } = azulejo.planeCoverage(rest, 0.05);
+    assert.ok(gaps >= 2 && gaps < 12 && coveringRadius > 0.05 && coveringRadius <= 0.1, `${gaps} ${coveringRadius}`);
+    assert.equal(azulejo.planeCoverage([0.5, 0.5], 0.6, { boundary: "bounded" }).gaps, 4);
+    const mesh = torus();
+    const set = azulejo.pspSample(mesh, { radius: 0.15 }).positions;
+    assert.equal(azulejo.meshCoverage(mesh, set, 0.15).gaps, 0);
+    assert.ok(azulejo.meshCoverage(mesh, set.subarray(3), 0.15).gaps >= 1);
+    assert.equal(azulejo.spaceSmallestDistance(set), smallest(set, 3));
+    assert.equal(azulejo.spaceSmallestDistance([]), Infinity);
+    assert.throws(() => azulejo.planeCoverage(positions, 0), /radius: /);
+    assert.throws(() => azulejo.meshCoverage(mesh, [0, 0, NaN], 1), /positions: /);
+});
+
+test("meshes are read from files", () => {
+    const obj = new TextEncoder().encode("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    const mesh = azulejo.Mesh.parse("square.obj", obj);
+    assert.equal(mesh.area, 2);
+    const { positions, indices, origin } = mesh.arrays();
+    assert.deepEqual([...positions], [0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0]);
+    assert.deepEqual([...indices], [0, 1, 2, 0, 2, 3]);
+    assert.deepEqual([...origin], [0, 0, 0]);
+    const same = new azulejo.Mesh(positions, indices);
+    const options = { radius: 0.1 };
+    assert.deepEqual(azulejo.pspSample(mesh, options), azulejo.pspSample(same, options));
+    const off = new TextEncoder().encode("OFF\n3 1 0\n1e9 0 0\n1000000001 0 0\n1e9 1 0\n3 0 1 2\n");
+    const far = azulejo.Mesh.parse("", off.buffer).arrays();
+    assert.ok(Math.abs(far.origin[0] - 1e9) <= 1 && far.positions[3] - far.positions[0] === 1);
+    assert.throws(() => azulejo.Mesh.parse("broken.off", new Uint8Array(9)), /broken\.off/);
+    mesh.free();
+    assert.throws(() => mesh.arrays(), /mesh: was freed/);
+});
+
+test("classes have the cross radii of Wei", () => {
+    const radii = azulejo.classesRadii([0.1, 0.05]);
+    // Of all samples of both: densities add up.
+    const both = 1 / Math.sqrt(1 / 0.1 ** 2 + 1 / 0.05 ** 2);
+    assert.deepEqual([radii[0], radii[3]], [0.1, 0.05]);
+    assert.ok(Math.abs(radii[1] - both) < 1e-12 && radii[1] === radii[2]);
+    assert.ok(Math.abs(azulejo.classesRadii([0.1, 0.05], 0.5)[1] - both / 2) < 1e-12);
+    assert.throws(() => azulejo.classesRadii([0.1, 0]), /own: /);
+});
+
+test("pieces are merged without seams", () => {
+    const half = (min, max, seed) => {
+        const { positions } = azulejo.kdrtSample({ radius: 0.03, domainMin: min, domainMax: max, boundary: "bounded", seed });
+        return { positions, min, max };
+    };
+    const pieces = [half([0, 0], [0.5, 1], 1), half([0.5, 0], [1, 1], 2)];
+    const given = pieces[0].positions.length / 2 + pieces[1].positions.length / 2;
+    const merged = azulejo.kdrtMerge(pieces, { radius: 0.03, seed: 7 }, [0.25, 0.75]);
+    assert.deepEqual([...merged.positions.subarray(0, 2)], [0.25, 0.75]);
+    assert.equal(merged.positions.length / 2, 1 + merged.kept + merged.inserted);
+    assert.equal(merged.kept + merged.eliminated, given);
+    assert.ok(merged.eliminated > 0 && merged.inserted > 0);
+    assert.ok(smallest(merged.positions, 2, wrapped) >= 0.03);
+    assert.equal(azulejo.planeCoverage(merged.positions, 0.03).gaps, 0);
+    assert.deepEqual(azulejo.kdrtMerge(pieces, { radius: 0.03, seed: 7, maximalPieces: true }, [0.25, 0.75]), merged);
+    assert.ok(azulejo.kdrtMerge([], { radius: 0.1 }).inserted > 60);
+    assert.throws(() => azulejo.kdrtMerge([pieces[0], pieces[0]], { radius: 0.03 }), /pieces: /);
+    assert.throws(() => azulejo.kdrtMerge([{ ...pieces[0], positions: [0.5] }], { radius: 0.03 }), /pieces: \[0\]/);
+});
+
+test("the unbiased reference is conflict-free and maximal", () => {
+    for (const boundary of ["periodic", "bounded"]) {
+        const { positions } = azulejo.maximalSample({ radius: 0.04, boundary, seed: 5 });
+        assert.ok(smallest(positions, 2, boundary === "periodic" ? wrapped : (d) => d) >= 0.04);
+        assert.equal(azulejo.planeCoverage(positions, 0.04, { boundary }).gaps, 0);
+    }
+    assert.throws(() => azulejo.maximalSample({}), /radius: /);
+});
+
+test("classes are relaxed together and each by itself", () => {
+    const { positions, classes } = azulejo.kdrtSampleClasses({ seed: 1 }, azulejo.classesRadii([0.06, 0.04]));
+    const relaxed = azulejo.dcrRelaxClasses(positions, classes, { maxIterations: 60 });
+    assert.ok(Math.abs(relaxed.smallestDistance - smallest(relaxed.positions, 2, wrapped)) < 1e-9);
+    for (const wanted of [0, 1]) {
+        const own = relaxed.positions.filter((_, i) => classes[i >> 1] === wanted);
+        const hexagonal = Math.sqrt(2 / (Math.sqrt(3) * (own.length / 2)));
+        assert.ok(Math.abs(relaxed.classRho[wanted] - smallest(own, 2, wrapped) / hexagonal) < 1e-6);
+        assert.ok(relaxed.classRho[wanted] > 0.5 && relaxed.classRelativeCoveringRadius[wanted] < 1.2);
+    }
+    assert.throws(() => azulejo.dcrRelaxClasses(positions, classes.subarray(1)), /classes: /);
+});
+
+test("uncovered shares and radial distributions", () => {
+    const mesh = new azulejo.Mesh([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2]);
+    const { positions } = azulejo.pspSample(mesh, { radius: 0.05 });
+    assert.equal(azulejo.meshUncoveredFraction(mesh, positions, 0.05), 0);
+    // A quarter of a disk around the right corner.
+    const share = azulejo.meshUncoveredFraction(mesh, [0, 0, 0], 0.4, { probes: 200_000 });
+    assert.ok(Math.abs(share - (1 - (Math.PI * 0.16) / 4 / 0.5)) < 0.005, `${share}`);
+    const { positions: set } = azulejo.kdrtSample({ count: 3000 });
+    const hexagonal = Math.sqrt(2 / (Math.sqrt(3) * 3000));
+    const density = azulejo.planeRadialDistribution(set, 3, 30);
+    // The share of ordered pairs in each bin over that of random points.
+    const found = new Array(30).fill(0);
+    for (let i = 0; i < 6000; i += 2) {
+        for (let j = 0; j < 6000; j += 2) {
+            const d = Math.hypot(wrapped(set[i] - set[j]), wrapped(set[i + 1] - set[j + 1])) / hexagonal;
+            if (i !== j && d < 3) found[Math.floor(10 * d)]++;
+        }
+    }
+    for (const [bin, count] of found.entries()) {
+        const area = Math.PI * (((bin + 1) / 10) ** 2 - (bin / 10) ** 2) * hexagonal ** 2;
+        assert.ok(Math.abs(density[bin] - count / (3000 * 2999 * area)) < 0.02, `bin ${bin}: ${density[bin]}`);
+    }
+    assert.throws(() => azulejo.planeRadialDistribution(set, 3, 0), /bins: /);
+});
+
+test("dots are as dense as an image is dark", () => {
+    const density = { values: Float32Array.from({ length: 64 }, (_, i) => (i % 8 < 4 ? 1 : 3)), width: 8, height: 8 };
+    const options = { boundary: "bounded", seed: 3 };
+    const { positions } = azulejo.dcrScatter(density, 2000, options);
+    assert.deepEqual(positions, azulejo.dcrScatter(density, 2000, options).positions);
+    const relaxed = azulejo.dcrRelaxDensity(positions, density, { ...options, maxIterations: 50 });
+    const right = (set) => set.filter((x, i) => i % 2 === 0 && x > 0.5).length / 2000;
+    assert.ok(Math.abs(right(positions) - 0.75) < 0.05 && Math.abs(right(relaxed.positions) - 0.75) < 0.02);
+    assert.ok(relaxed.rho > 0.5 && relaxed.positions.length === 4000);
+    assert.ok(Math.abs(relaxed.smallestDistance - smallest(relaxed.positions, 2)) < 1e-9);
+    assert.throws(() => azulejo.dcrScatter({ ...density, width: 9 }, 10), /density: /);
+    assert.throws(() => azulejo.dcrScatter({ width: 8, height: 8 }, 10), /values: /);
+    assert.throws(() => azulejo.dcrRelaxDensity([0.5, 2], density), /positions: /);
+});
+
+test("images are dithered as by the Rust calls", () => {
+    const mask = { width: 16, height: 16, seed: 1 };
+    const ranks = azulejo.maskCreate(mask);
+    const values = new Float32Array(64 * 64).fill(0.25);
+    const image = { values, width: 64, height: 64 };
+    assert.equal(azulejo.maskDither(ranks, mask, image).filter((level) => level === 1).length, 64 * 64 / 4);
+    for (const [name, size] of [["square", { width: 128, height: 128, channels: 2, seed: 91 }], ["of space", { width: 32, height: 24, depth: 20, seed: 94 }]]) {
+        const values = Array.from({ length: 60 * 50 * 3 }, (_, i) => ((i * 37) % 1000) / 999);
+        const out = azulejo.maskDither(azulejo.maskCreate(size), size, { values, width: 60, height: 50, channels: 3 }, 5);
+        assert.ok(hasSum(`mask ${name}, dithered`, out), name);
+    }
+    const bytes = { values: new Uint8Array(300).fill(255), width: 10, height: 10, channels: 3 };
+    assert.ok(azulejo.maskDither(ranks, mask, bytes, 256).every((level) => level === 255));
+    assert.throws(() => azulejo.maskDither(ranks, mask, image, 1), /levels: /);
+    assert.throws(() => azulejo.maskDither(ranks, { width: 8, height: 8 }, image), /ranks: /);
+    assert.throws(() => azulejo.maskDither(ranks, mask, { ...image, width: 63 }), /values: /);
+    assert.throws(() => azulejo.maskDither(ranks, mask, { ...image, values: values.map(() => NaN) }), /values: /);
+});
+
 test("masks are permutations, the same as everywhere, and refused by the names of their options", () => {
     const mask = azulejo.maskCreate({ width: 20, height: 12, channels: 2, seed: 4 });
     assert.equal(mask.length, 2 * 240);

@@ -105,7 +105,7 @@ macro_rules! arguments {
 arguments! {
     real: f64 = named => factor leaf_size radius reach sigma tolerance width;
     amount: f64 = or_zero => count radius;
-    whole: i128 = named => bins channels count depth frequency_stride height iterations max_iterations probes seed size threads width;
+    whole: i128 = named => bins channels count depth frequency_stride height iterations levels max_iterations probes seed size threads width;
     number: i128 = or_zero => count;
     truth: bool = named => maximal;
     maybe_real: Option<f64> = named_or_none => attraction_radius coarsest conflict_radius cosine decay quotient radius step tolerance;

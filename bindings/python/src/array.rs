@@ -40,6 +40,12 @@ impl Entry for f64 {
     const WHAT: &str = "real numbers";
 }
 
+impl Entry for u8 {
+    const KINDS: &str = "u";
+    const WHAT: &str = "bytes";
+    const MOST: Option<u64> = Some(u8::MAX as u64);
+}
+
 impl Entry for u32 {
     const KINDS: &str = "iu";
     const WHAT: &str = "whole numbers";
