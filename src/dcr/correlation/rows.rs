@@ -16,7 +16,7 @@ use crate::simd::{LANES, Lanes, Level, Work, run};
 
 /// The height of rows and the width of cells, in spacings of the torus, and the least number of either: with a reach of
 /// at most [`WIDEST`] of a period, runs then do not meet themselves across it.
-const HEIGHT: f64 = 1.5;
+const HEIGHT: f64 = 2.2;
 const WIDTH: f64 = 0.75;
 const LEAST: f64 = 20.0;
 
@@ -84,9 +84,9 @@ impl Rows {
         run(level, Gather { rows: self, law, here, forces, counts });
     }
 
-    /// Visits the runs of points that may be in reach of a point.
+    /// Visits the runs of points that may be in reach of a point, and how many rows each is above its own.
     #[inline(always)]
-    fn for_each_run(&self, [x, y]: TorusPoint, mut visit: impl FnMut(Range<usize>)) {
+    fn for_each_run(&self, [x, y]: TorusPoint, mut visit: impl FnMut(isize, Range<usize>)) {
         let of_period = |coordinate: u32, cells: usize| coordinate as f32 / TURN as f32 * cells as f32;
         let (column, row) = (of_period(x, self.columns) + self.repeated as f32, of_period(y, self.rows));
         let (own, most) = (along(self.rows, y), (self.reach / self.size.y) as isize + 1);
@@ -101,7 +101,10 @@ impl Rows {
             let half = squared.sqrt() / self.size.x + MARGIN;
             let first = other.rem_euclid(self.rows as isize) as usize * stride;
             let end = (column + half) as usize + 1;
-            visit(self.points.range(first + (column - half).max(0.0) as usize..first + end.min(stride)));
+            visit(
+                other - own as isize,
+                self.points.range(first + (column - half).max(0.0) as usize..first + end.min(stride)),
+            );
         }
     }
 }
@@ -132,7 +135,7 @@ impl Work for Gather<'_> {
         let Self { rows, law, here, forces, counts } = self;
         for &place in here {
             let [mut x, mut y] = [lanes.splat(0.0); 2];
-            rows.for_each_run(place, |run| {
+            rows.for_each_run(place, |above, run| {
                 for first in run.clone().step_by(LANES) {
                     let [dx, dy] = rows.offsets(lanes, first, place);
                     let squared = lanes.add(lanes.mul(dx, dx), lanes.mul(dy, dy));
@@ -141,7 +144,9 @@ impl Work for Gather<'_> {
                     let are = lanes.less(lanes.load(&NUMBERS), lanes.splat((run.end - first) as f32));
                     let beyond = lanes.splat(law.beyond as f32);
                     let steps = lanes.min(lanes.select(are, steps, beyond), beyond);
-                    let factors = look_up(lanes, law.table, lanes.add(steps, lanes.splat(INTEGERS)), counts);
+                    let entries = entries(lanes, lanes.add(steps, lanes.splat(INTEGERS)));
+                    count(&entries, counts, (1 + above.signum()) as u32);
+                    let factors = look_up(lanes, law.table, &entries);
                     x = lanes.sub(x, lanes.mul(factors, dx));
                     y = lanes.sub(y, lanes.mul(factors, dy));
                 }
@@ -163,20 +168,89 @@ impl Rows {
     }
 }
 
-/// The entries of a table at the integers that floats have in their lowest bits, which are counted.
+// Functions, since closures are not always inlined, and without that they are not compiled for the level.
+
+/// The integers that floats have in their lowest bits.
 #[inline(always)]
-fn look_up<L: Lanes>(lanes: L, table: &Table, numbers: L::Floats, counts: &mut Counts) -> L::Floats {
-    let (mut stored, mut factors) = ([0.0; LANES], [0.0; LANES]);
+fn entries<L: Lanes>(lanes: L, numbers: L::Floats) -> [u32; LANES] {
+    let (mut stored, mut entries) = ([0.0; LANES], [0; LANES]);
     lanes.store(numbers, &mut stored);
     for lane in 0..LANES {
-        let entry = stored[lane].to_bits() as usize % TABLE;
-        factors[lane] = table[entry];
-        counts[entry] += 1;
+        entries[lane] = stored[lane].to_bits() % TABLE as u32;
+    }
+    entries
+}
+
+/// The entries of a table.
+#[inline(always)]
+fn look_up<L: Lanes>(lanes: L, table: &Table, entries: &[u32; LANES]) -> L::Floats {
+    let mut factors = [0.0; LANES];
+    for lane in 0..LANES {
+        factors[lane] = table[entries[lane] as usize % TABLE];
     }
     lanes.load(&factors)
+}
+
+/// Adds a number to the counts of entries.
+#[inline(always)]
+fn count(entries: &[u32; LANES], counts: &mut Counts, number: u32) {
+    if number > 0 {
+        for lane in 0..LANES {
+            counts[entries[lane] as usize % TABLE] += number;
+        }
+    }
 }
 
 /// The row or column of a coordinate.
 fn along(count: usize, coordinate: u32) -> usize {
     ((u64::from(coordinate) * count as u64) >> 32) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::points::{Boundary, Domain};
+    use crate::rng::{Draw, Rng};
+
+    /// Against all pairs, on grids of many cells and of few, in reaches up to the widest, with each level.
+    #[test]
+    fn forces_and_counts_are_those_of_all_pairs() {
+        for (width, count, share) in
+            [(1.0, 1500, 0.2), (1.0, 40, 0.42), (9.0, 300, 0.42), (0.02, 150, 0.3), (1.0, 2, 0.4)]
+        {
+            let torus = Torus::new(Domain { min: [0.0; 2], max: [width, 1.0], boundary: Boundary::Periodic }, count);
+            let mut rng = Rng::at(6, Draw::Probe, &[count as u64]);
+            let points: Vec<_> = (0..count).map(|_| [rng.unit() * width, rng.unit()].map(|x| x as f32)).collect();
+            let places = torus.enter(&points, 0);
+            let reach = (share * torus.frame.size().min_element()) as f32;
+            let (beyond, mut table) = (700, [0.0; TABLE]);
+            table[..beyond].iter_mut().for_each(|entry| *entry = rng.unit() as f32);
+            let law = Law { table: &table, per_spacing: (beyond as f32 - 0.5) / reach, beyond };
+            let (mut expected, mut pairs) = (vec![Vec2::ZERO; count], [0; TABLE]);
+            for (sum, &place) in expected.iter_mut().zip(&places) {
+                for &other in &places {
+                    let offset = torus.offset_f32(place, other);
+                    let entry = ((offset.length() * law.per_spacing).round_ties_even() as usize).min(beyond);
+                    *sum -= table[entry] * offset;
+                    pairs[entry] += 1;
+                }
+            }
+            let rows = Rows::new(&torus, &places, reach);
+            let mut portable = None;
+            for level in Level::available() {
+                let (mut forces, mut counts) = (Vec::new(), [0; TABLE]);
+                rows.gather(level, &law, &places, &mut forces, &mut counts);
+                let bound = 1e-5 * (count as f32).sqrt() * (1.0 + reach);
+                assert!(
+                    forces.iter().zip(&expected).all(|(a, b)| a.distance(*b) < bound),
+                    "{level:?}, {width}, {count}"
+                );
+                // A pair at the edge of an entry may be counted in the next by one of its ends.
+                let apart: u32 = (0..beyond).map(|k| counts[k].abs_diff(pairs[k])).sum();
+                assert!(apart as usize <= count / 20, "{level:?}, {width}, {count}: {apart}");
+                counts[beyond] = 0;
+                assert_eq!(&(forces.clone(), counts), portable.get_or_insert((forces, counts)), "{level:?}");
+            }
+        }
+    }
 }

@@ -76,9 +76,8 @@ impl Tension {
             if t <= 0.0 { 1.0 } else { 0.5 + 0.5 * cos(PI * t) }
         };
         let weights: Vec<f64> = (0..rings).map(|k| fading(k) * area(ring, k)).collect();
-        let transform = |frequency: f64| {
-            (0..rings).map(|k| weights[k] * j0(TAU * frequency * distance(k))).collect::<Vec<_>>()
-        };
+        let transform =
+            |frequency: f64| (0..rings).map(|k| weights[k] * j0(TAU * frequency * distance(k))).collect::<Vec<_>>();
         let to_power: Vec<f64> = (0..FREQUENCIES).flat_map(|m| transform(frequency(m))).collect();
         let force = |k: usize| {
             let at = move |m: usize| match k {
