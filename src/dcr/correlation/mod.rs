@@ -25,7 +25,7 @@ use crate::setters::setters;
 use crate::simd::Level;
 
 /// The peak memory for a point and all of its data.
-const BYTES_PER_POINT: f64 = 315.0;
+const BYTES_PER_POINT: f64 = 260.0;
 
 /// The distance up to which correlations are matched, in mean spacings, where the target and the torus reach as far.
 const REACH: f64 = 12.0;
