@@ -126,8 +126,10 @@ fn a_correlation_that_no_set_has_ends_with_a_report() {
 fn the_own_correlation_of_a_set_is_reached_at_once_and_by_others() {
     let (points, _) = run(&random_points(COUNT, 4), &PairCorrelation::peak(0.6, 0.06, 1.0).unwrap());
     let context = Context::new(1).unwrap();
-    let measured = radial_distribution(&context, &torus(), &points, 12.0, 480, None).unwrap();
-    let own = PairCorrelation::new(12.0, &measured.density()).unwrap();
+    let measured = radial_distribution(&context, &torus(), &points, 12.0, 2400, None).unwrap();
+    let share = (COUNT - 1) as f64 / COUNT as f64;
+    let values: Vec<f64> = measured.density().iter().map(|value| value * share).collect();
+    let own = PairCorrelation::new(12.0, &values).unwrap();
     let (same, report) = run(&points, &own);
     assert!(report.set.stopped == Stopped::Converged && report.set.iterations == 1, "{report:?}");
     assert_eq!(same, points);

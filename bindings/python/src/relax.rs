@@ -268,7 +268,7 @@ pub(crate) fn dcr_correlation_of_power(
 ///
 /// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
 /// correlation: g, float64, shape (bins,), in bins of equal width from distance 0 to reach, in units of d_max: of
-///     plane_radial_distribution or dcr_correlation_of_power.
+///     plane_radial_distribution (times (n - 1) / n for n points, to be matched to the last) or dcr_correlation_of_power.
 /// tolerance: the residual at which a set has converged; default 0.005. The others are those of dcr_relax.
 ///
 /// Returns Points, in the order of positions, with the report DcrReport, which has the residual: of the states, the one

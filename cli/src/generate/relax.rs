@@ -129,7 +129,9 @@ impl Relax {
         output: &PointFile,
     ) -> Result<()> {
         if has_classes {
-            return Err(self.refused("has classes, for which there is no --spectrum: --no-classes takes it for one set"));
+            return Err(
+                self.refused("has classes, for which there is no --spectrum: --no-classes takes it for one set")
+            );
         }
         let target = spectrum.correlation(context, |path| {
             let set = self.format.read_plane(path, ON_MESH)?;
@@ -142,10 +144,9 @@ impl Relax {
         let mut options = CorrelationOptions::new(domain).seed(self.common.seed);
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let start = Instant::now();
-        let (relaxed, done) = watched("relax", |progress| {
-            dcr::relax_to_correlation(context, &options, points, &target, Some(progress))
-        })
-        .map_err(|error| blame(&self.input, error))?;
+        let (relaxed, done) =
+            watched("relax", |progress| dcr::relax_to_correlation(context, &options, points, &target, Some(progress)))
+                .map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
         let class_radii = &[done.set.smallest_distance];
         output.write_points(&domain, &PointTable { class_radii, ..PointTable::of(&relaxed) })?;

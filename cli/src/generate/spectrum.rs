@@ -9,7 +9,7 @@ use azulejo::{Context, Domain, Result};
 
 /// The most that is measured of another set, in units of d_max, and the bins of it.
 const REACH: f64 = 12.0;
-const BIN: f64 = 0.025;
+const BIN: f64 = 0.005;
 
 /// A spectrum by its name, or the path of a set that has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +56,10 @@ impl Spectrum {
                 let reach = REACH.min(0.499 * width.min(height) / domain.hexagonal_distance(points.len().max(1)));
                 let bins = (reach / BIN).ceil() as usize;
                 let measured = radial_distribution(context, &domain, &points, reach, bins.max(1), None)?;
-                PairCorrelation::new(reach, &measured.density())
+                // Over the density of all points instead of that of all others.
+                let share = 1.0 - 1.0 / points.len() as f64;
+                let values: Vec<f64> = measured.density().iter().map(|value| value * share).collect();
+                PairCorrelation::new(reach, &values)
             }
         }
     }

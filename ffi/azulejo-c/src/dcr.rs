@@ -461,7 +461,8 @@ pub unsafe extern "C" fn azulejo_dcr_correlation_of_power(
 /// 11.2 d_max and 0.42 of the shorter period, whichever is least.
 ///
 /// correlation: `bins` finite numbers, 1 to 65536: g in bins of equal width from 0 to `reach`, as
-/// azulejo_plane_radial_distribution measures it or azulejo_dcr_correlation_of_power makes it.
+/// azulejo_plane_radial_distribution measures it (times (n - 1) / n for n points, to the last) or
+/// azulejo_dcr_correlation_of_power makes it.
 ///
 /// residual: a number, or NULL: the root mean square, over frequencies up to 2 sqrt(density), of the
 /// difference of the power and the one wanted, both smoothed over about 1 / reach; 0 for fewer than

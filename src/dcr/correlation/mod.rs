@@ -112,7 +112,7 @@ impl CorrelationRelaxation {
     fn new(options: &CorrelationOptions, target: &PairCorrelation, points: &[[f32; 2]]) -> Self {
         let torus = Torus::new(options.domain, points.len());
         let size = torus.frame.size();
-        let mean_spacings = (points.len() as f64 / (size.x * size.y)).sqrt();
+        let mean_spacings = (points.len().max(1) as f64 / (size.x * size.y)).sqrt();
         // In mean spacings, as is the target in units of d_max.
         let reach = REACH.min(WIDEST * size.min_element() * mean_spacings).min(target.reach() / MEAN_SPACING);
         let order = CurveOrder::new(&torus, points, options.seed);

@@ -35,7 +35,8 @@ pub struct PairCorrelation {
 
 impl PairCorrelation {
     /// The pair correlation with these values in bins from 0 to `reach`, in units of `d_max`. Bins of 0.05 or less show
-    /// all that is matched.
+    /// all that is matched of a smooth one. What is measured of a set of n points is over the density of the n - 1 others: to
+    /// be matched to the last, it is multiplied by (n - 1) / n, in bins of about 0.005, as its noise is matched too.
     ///
     /// No point set has values below 0, and not all others exist either: they are allowed here, as the nearest that a
     /// relaxation comes to them may be wanted.

@@ -27,6 +27,9 @@ pub const MOST_RINGS: usize = 320;
 /// The length of the table of forces: a power of two, so that a mask makes an index of any number.
 pub const TABLE: usize = 1024;
 
+/// The distances in a ring at which a target is evaluated.
+const SAMPLES: usize = 8;
+
 /// The frequencies that are matched, in units of sqrt(density): the middles of bins of this width.
 const FREQUENCIES: usize = 100;
 const FREQUENCY_WIDTH: f64 = 0.02;
@@ -87,7 +90,7 @@ impl Tension {
             (0..FREQUENCIES).map(move |m| fading(k) * FREQUENCY_WIDTH * at(m)).collect::<Vec<_>>()
         };
         let to_force = (0..rings).flat_map(force).collect();
-        let correlation: Vec<f64> = (0..rings).map(|k| correlation(distance(k))).collect();
+        let correlation: Vec<f64> = (0..rings).map(|k| mean_over_ring(ring, k, &correlation)).collect();
         let excess: Vec<f64> = correlation.iter().map(|value| value - 1.0).collect();
         let power = products(&to_power, &excess).map(|excess| 1.0 + excess).collect();
         Self { ring, rings, to_power, to_force, correlation, power }
@@ -148,6 +151,16 @@ fn area(ring: f64, k: usize) -> f64 {
         0 => 0.25 * PI * ring * ring,
         _ => TAU * k as f64 * ring * ring,
     }
+}
+
+/// The mean of a function of the distance over the ring about `k` times the width: measured correlations have noise from
+/// bin to bin, which single distances would take for waves.
+fn mean_over_ring(ring: f64, k: usize, function: impl Fn(f64) -> f64) -> f64 {
+    let (from, to) = ((k as f64 - 0.5).max(0.0), k as f64 + 0.5);
+    let distance = |i: usize| ring * (from + (to - from) * (i as f64 + 0.5) / SAMPLES as f64);
+    let sums = (0..SAMPLES).map(distance).map(|r| [r, r * function(r)]);
+    let [weights, values] = sums.fold([0.0; 2], |sums, of| [sums[0] + of[0], sums[1] + of[1]]);
+    values / weights
 }
 
 /// The product of each row of a matrix and a vector.
