@@ -1922,6 +1922,9 @@ inline Status try_psp_classes_with_density(const Context &context, const Mesh &m
 
 namespace detail {
 
+/// The most bins that a call allows; a larger number is refused by it and has no array here.
+inline constexpr std::size_t most_bins = 65536;
+
 /// Calls with the C struct of a density.
 template <class Call>
 Status with_density(const Density &density, Points &out, Call call) {
@@ -2112,9 +2115,6 @@ Status measured(const PlaneSet &set, Call call) {
     if (Status s = plane_set(set, c_set); !s.ok()) return s;
     return run([&] { return call(&c_set); });
 }
-
-/// The most bins that a call allows; a larger number is refused by it and has no array here.
-inline constexpr std::size_t most_bins = 65536;
 
 /// The C handles of several owners.
 template <class Owner>
