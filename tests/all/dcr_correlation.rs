@@ -37,8 +37,11 @@ fn peak(frequency: f64) -> f64 {
     rise + (-0.5 * t * t).exp()
 }
 
+/// A power as a function of the frequency.
+type Power = fn(f64) -> f64;
+
 /// The root mean square difference between a radial curve, frequencies with powers, and a power.
-fn difference(curve: &[[f64; 2]], power: fn(f64) -> f64) -> f64 {
+fn difference(curve: &[[f64; 2]], power: Power) -> f64 {
     let squares: f64 = curve.iter().map(|&[frequency, is]| (is - power(frequency)).powi(2)).sum();
     (squares / curve.len() as f64).sqrt()
 }
@@ -85,7 +88,7 @@ fn radial_by_sums(sets: &[Vec<[f32; 2]>]) -> Vec<[f64; 2]> {
 #[test]
 fn steps_and_peaks_of_power_are_reached() {
     let context = Context::new(1).unwrap();
-    let targets: [(_, fn(f64) -> f64, _); 2] = [
+    let targets: [(_, Power, _); 2] = [
         (PairCorrelation::step(0.5).unwrap(), step, 0.05),
         (PairCorrelation::peak(0.6, 0.06, 1.0).unwrap(), peak, 0.03),
     ];
