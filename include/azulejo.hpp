@@ -1922,6 +1922,9 @@ inline Status try_psp_classes_with_density(const Context &context, const Mesh &m
 
 namespace detail {
 
+/// The most bins that a call allows; a larger number is refused by it and has no array here.
+inline constexpr std::size_t most_bins = 65536;
+
 /// Calls with the C struct of a density.
 template <class Call>
 Status with_density(const Density &density, Points &out, Call call) {
@@ -1952,6 +1955,34 @@ inline Status try_dcr_relax(const Context &context, const DcrOptions &options,
     return detail::make(out, [&](auto **points) {
         return azulejo_dcr_relax(context.get(), &options, positions.data(), positions.size(),
                                  points, report);
+    });
+}
+
+/// Makes the pair correlation of a radial power in `bins` bins; see azulejo_dcr_correlation_of_power.
+inline Status try_dcr_correlation_of_power(double highest, Span<const double> power, double reach,
+                                           std::size_t bins, std::vector<double> &out) {
+    // One at least, so that it is `bins` that is refused.
+    std::vector<double> values(std::max<std::size_t>(std::min(bins, detail::most_bins), 1));
+    Status s = detail::run([&] {
+        return azulejo_dcr_correlation_of_power(highest, power.data(), power.size(), reach, bins,
+                                                values.data());
+    });
+    if (s.ok()) out = std::move(values);
+    return s;
+}
+
+/// Moves points of a torus until they have the pair correlation `correlation`, in bins up to
+/// `reach` d_max; see azulejo_dcr_relax_to_correlation.
+inline Status try_dcr_relax_to_correlation(const Context &context, const DcrOptions &options,
+                                           const PlanePoints &positions, double reach,
+                                           Span<const double> correlation, Points &out,
+                                           DcrReport *report = nullptr,
+                                           double *residual = nullptr) {
+    if (Status s = positions.check("positions"); !s.ok()) return s;
+    return detail::make(out, [&](auto **points) {
+        return azulejo_dcr_relax_to_correlation(context.get(), &options, positions.data(),
+                                                positions.size(), reach, correlation.data(),
+                                                correlation.size(), residual, points, report);
     });
 }
 
@@ -2084,9 +2115,6 @@ Status measured(const PlaneSet &set, Call call) {
     if (Status s = plane_set(set, c_set); !s.ok()) return s;
     return run([&] { return call(&c_set); });
 }
-
-/// The most bins that a call allows; a larger number is refused by it and has no array here.
-inline constexpr std::size_t most_bins = 65536;
 
 /// The C handles of several owners.
 template <class Owner>
@@ -2463,6 +2491,23 @@ inline Points dcr_relax(const Context &context, const DcrOptions &options,
                         const PlanePoints &positions, DcrReport *report = nullptr) {
     Points points;
     check(try_dcr_relax(context, options, positions, points, report));
+    return points;
+}
+
+inline std::vector<double> dcr_correlation_of_power(double highest, Span<const double> power,
+                                                    double reach, std::size_t bins) {
+    std::vector<double> correlation;
+    check(try_dcr_correlation_of_power(highest, power, reach, bins, correlation));
+    return correlation;
+}
+
+inline Points dcr_relax_to_correlation(const Context &context, const DcrOptions &options,
+                                       const PlanePoints &positions, double reach,
+                                       Span<const double> correlation, DcrReport *report = nullptr,
+                                       double *residual = nullptr) {
+    Points points;
+    check(try_dcr_relax_to_correlation(context, options, positions, reach, correlation, points,
+                                       report, residual));
     return points;
 }
 

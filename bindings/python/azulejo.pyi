@@ -281,6 +281,8 @@ class DcrReport:
     @property
     def class_rho(self) -> Optional[NDArray[np.float64]]: ...
     @property
+    def residual(self) -> Optional[float]: ...
+    @property
     def class_relative_covering_radius(self) -> Optional[NDArray[np.float64]]: ...
 
 class DcrRemeshReport:
@@ -648,6 +650,27 @@ def dcr_relax(
 def dcr_relax_classes(
     positions: ArrayLike,
     classes: ArrayLike,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
+def dcr_correlation_of_power(
+    power: ArrayLike,
+    highest: SupportsFloat,
+    *,
+    reach: SupportsFloat = 12.0,
+    bins: SupportsIndex = 480,
+) -> NDArray[np.float64]: ...
+def dcr_relax_to_correlation(
+    positions: ArrayLike,
+    correlation: ArrayLike,
+    reach: SupportsFloat,
     *,
     domain_min: Optional[_Numbers] = None,
     domain_max: Optional[_Numbers] = None,

@@ -4,6 +4,7 @@ mod around;
 mod attributes;
 mod plane;
 mod relax;
+mod spectrum;
 mod surface;
 mod volume;
 

@@ -171,6 +171,53 @@ azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
                                          azulejo_points **out,
                                          azulejo_dcr_report *report);
 
+/// Makes the pair correlation g(r) of sets with a radial mean of the power, for
+/// azulejo_dcr_relax_to_correlation: g(r) = 1 + the integral of (P - 1) J0(2 pi frequency r)
+/// 2 pi frequency over the frequencies, r in units of 1 / sqrt(density) (Heck et al. 2013).
+/// - power: `count` numbers, 1 to 65536, at least 0: the power in bins of equal width from
+///   frequency 0 to `highest`, in units of sqrt(density); beyond them it is 1. One bin of power 0
+///   is step noise.
+/// - reach: where the last bin of `out` ends, above 0, in units of d_max. 12 is more than is
+///   matched.
+/// - out: an array of `bins` numbers, 1 to 65536: g in the middles of bins of equal width from 0 to
+///   `reach`. Bins of 0.05 or less show all that is matched. Not written if the call fails.
+/// - O(count * bins) time.
+azulejo_status azulejo_dcr_correlation_of_power(double highest,
+                                                const double *power,
+                                                size_t count,
+                                                double reach,
+                                                size_t bins,
+                                                double *out);
+
+/// Moves points of a periodic domain until their pair correlation g(r), and with it the radial mean
+/// of their power, is the one wanted: general spectra (thesis eq. 4.3, 4.4 and 5.2; Heck et al.
+/// 2013). Uniform random points are a good start; a clustered set is levelled before the first
+/// step. Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults, which it
+/// does not use otherwise; `tolerance` is that of the residual, by default 0.005.
+/// - positions: the points, x y each.
+/// - reach: where the last bin ends, above 0, in units of d_max. Correlations are matched up to
+///   this, 11.2 d_max and 0.42 of the shorter period, whichever is least.
+/// - correlation: `bins` finite numbers, 1 to 65536: g in bins of equal width from 0 to `reach`, as
+///   azulejo_plane_radial_distribution measures it (times (n - 1) / n for n points, to the last) or
+///   azulejo_dcr_correlation_of_power makes it.
+/// - residual: a number, or NULL: the root mean square, over frequencies up to 2 sqrt(density), of
+///   the difference of the power and the one wanted, both smoothed over about 1 / reach; 0 for
+///   fewer than two points.
+/// - out: of the states, the one with the least residual, in the order of the positions. A
+///   correlation that no set has, such as one below 0, is no error: all steps are made, and
+///   `stopped` is not AZULEJO_STOPPED_CONVERGED.
+/// - O(count * reach^2) time for each step, O(count) memory.
+azulejo_status azulejo_dcr_relax_to_correlation(const azulejo_context *context,
+                                                const azulejo_dcr_options *options,
+                                                const float *positions,
+                                                size_t count,
+                                                double reach,
+                                                const double *correlation,
+                                                size_t bins,
+                                                double *residual,
+                                                azulejo_points **out,
+                                                azulejo_dcr_report *report);
+
 /// Gives the density at a position, at least 0. See "Callbacks" in azulejo.h. It is called once for
 /// each place of a lattice of up to some hundred places per point.
 /// - user: the `function_user` of the azulejo_density.

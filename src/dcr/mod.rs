@@ -9,13 +9,14 @@
 //! * [`Method::Thesis`]: the algorithm of the thesis with all of its settings.
 //!
 //! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] on triangle
-//! meshes, [`fn@volume::relax`] in cuboids. `docs/dcr.md` has measurements of the results in the plane and on meshes:
-//! distances, coverage, spectra and angles.
+//! meshes, [`fn@volume::relax`] in cuboids. [`relax_to_correlation`] gives sets another spectrum. `docs/dcr.md` has
+//! measurements of the results in the plane and on meshes: distances, coverage, spectra and angles.
 //!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own
 //! test.
 
 mod clustering;
+mod correlation;
 mod density;
 mod law;
 mod relax;
@@ -26,6 +27,7 @@ mod torus;
 mod uniform;
 pub mod volume;
 
+pub use correlation::{CorrelationOptions, CorrelationReport, PairCorrelation, relax_to_correlation};
 pub use density::{Density, DensityFunction, relax_with_density, scatter};
 pub use law::Neighbourhood;
 pub use relax::{Method, Options, relax, relax_observed};

@@ -20,6 +20,7 @@
 //! | `psp/fill/pages` | pages of coordinates and radii for vector code, each sample in all cells that it touches |
 //! | `psp/given` | balls of very different sizes, a grid for each tier of sizes |
 //! | `dcr/uniform/cells` | moving points of a torus, coordinates for vector code; sorted anew, not re-linked |
+//! | `dcr/correlation/rows` | moving points of a torus in reaches of many spacings, for vector code |
 //! | `interior/tree` | boxes of triangles in rows of eight, for rays along one axis and for boxes |
 //! | `thin/tree` | each node knows the point of it that is farthest from all selected ones, and loses it |
 

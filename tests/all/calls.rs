@@ -22,7 +22,7 @@ use azulejo::analysis::figures::figures_2d;
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
 use azulejo::analysis::spectrum::{periodogram, sparse_periodogram};
 use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
-use azulejo::dcr::{self, DelaunayOptions, Neighbourhood, Stopped};
+use azulejo::dcr::{self, CorrelationOptions, DelaunayOptions, Neighbourhood, PairCorrelation, Stopped};
 use azulejo::kdrt::{self, CountOptions, MergeOptions, Piece, Plane, Progressive};
 use azulejo::mask;
 use azulejo::maximal;
@@ -122,6 +122,10 @@ fn stream(options: &kdrt::Options, context: &Context, progress: Option<&Progress
 
 fn delaunay() -> DelaunayOptions {
     DelaunayOptions::new(UNIT).max_iterations(12)
+}
+
+fn correlation() -> CorrelationOptions {
+    CorrelationOptions::new(TORUS).max_iterations(4)
 }
 
 fn classes_of_points() -> Vec<u32> {
@@ -509,6 +513,24 @@ const RELAXATION: &[Call] = &[
         refused: &[
             ("classes: ", |c, p| said(dcr::relax_classes(c, &delaunay(), &POINTS, &[0, 1], p))),
             ("classes: [1] is 16", |c, p| said(dcr::relax_classes(c, &delaunay(), &[[0.5; 2]; 2], &[0, 16], p))),
+        ],
+    },
+    Call {
+        name: "dcr::correlation::relax_to_correlation",
+        reports: 5,
+        run: |c, p| {
+            let target = PairCorrelation::step(0.5).unwrap();
+            let set = dcr::relax_to_correlation(c, &correlation(), &POINTS, &target, p);
+            relaxed(set.map(|(points, report)| ((points, report.residual), report.set)), |report| report.stopped)
+        },
+        refused: &[
+            ("boundary: ", |c, p| {
+                let bounded = correlation().domain(Domain { boundary: Boundary::Bounded, ..TORUS });
+                said(dcr::relax_to_correlation(c, &bounded, &POINTS, &PairCorrelation::step(0.5).unwrap(), p))
+            }),
+            ("positions: ", |c, p| {
+                said(dcr::relax_to_correlation(c, &correlation(), &[[2.0; 2]], &PairCorrelation::step(0.5).unwrap(), p))
+            }),
         ],
     },
     Call {

@@ -16,6 +16,7 @@ mod dcr;
 mod dcr_boundary;
 mod dcr_classes;
 mod dcr_converged;
+mod dcr_correlation;
 mod dcr_density;
 mod dcr_density_report;
 mod dcr_few;

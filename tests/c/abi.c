@@ -483,6 +483,11 @@ static void signatures(void) {
     azulejo_status (*dcr_relax_classes)(const azulejo_context *, const azulejo_dcr_options *, const float *,
                                         const uint32_t *, size_t, uint32_t, double *, double *,
                                         azulejo_points **, azulejo_dcr_report *) = azulejo_dcr_relax_classes;
+    azulejo_status (*dcr_correlation_of_power)(double, const double *, size_t, double, size_t, double *) =
+        azulejo_dcr_correlation_of_power;
+    azulejo_status (*dcr_relax_to_correlation)(const azulejo_context *, const azulejo_dcr_options *, const float *, size_t,
+                                               double, const double *, size_t, double *, azulejo_points **,
+                                               azulejo_dcr_report *) = azulejo_dcr_relax_to_correlation;
     azulejo_status (*dcr_surface_relax)(const azulejo_context *, const azulejo_mesh *,
                                         const azulejo_dcr_surface_options *, const uint32_t *, const float *, size_t,
                                         azulejo_points **, azulejo_dcr_surface_report *) = azulejo_dcr_surface_relax;
@@ -532,7 +537,7 @@ static void signatures(void) {
     const char *(*status_name)(azulejo_status) = azulejo_status_name;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
-    CHECK(psp_points && psp_sample && psp_sample_classes && psp_classes_with_density && dcr_relax && dcr_relax_classes && last_error_message && kdrt_sample_window && kdrt_stream);
+    CHECK(psp_points && psp_sample && psp_sample_classes && psp_classes_with_density && dcr_relax && dcr_relax_classes && dcr_correlation_of_power && dcr_relax_to_correlation && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);

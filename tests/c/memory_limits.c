@@ -451,6 +451,17 @@ static azulejo_status relaxed_bounded_thesis(const azulejo_context *context, siz
     return relaxed_by(context, count, AZULEJO_BOUNDARY_BOUNDED, AZULEJO_NEIGHBOURHOOD_DELAUNAY, AZULEJO_METHOD_THESIS);
 }
 
+static azulejo_status relaxed_to_correlation(const azulejo_context *context, size_t count) {
+    azulejo_dcr_options o = dcr_options(2);
+    azulejo_points *points = NULL;
+    const double none = 0.0;
+    double correlation[256];
+    azulejo_status status = azulejo_dcr_correlation_of_power(0.5, &none, 1, 12.0, 256, correlation);
+    if (status != AZULEJO_OK) return status;
+    return freed(azulejo_dcr_relax_to_correlation(context, &o, cloud, count, 12.0, correlation, 256, NULL, &points, NULL),
+                 points);
+}
+
 static azulejo_status relaxed_classes_on(const azulejo_context *context, size_t count, uint32_t boundary) {
     azulejo_dcr_options o = dcr_options(2);
     azulejo_points *points = NULL;
@@ -614,6 +625,7 @@ static const struct {
     {"relax, bounded", relaxed_bounded, 250000, MOST_ASKED},
     {"relax, bounded, nearest", relaxed_bounded_nearest, 250000, MOST_ASKED_UNEVENLY},
     {"relax, bounded, thesis", relaxed_bounded_thesis, 250000, MOST_ASKED},
+    {"relax, correlation", relaxed_to_correlation, 250000, MOST_ASKED},
     {"relax, 2 classes", relaxed_classes, 200000, MOST_ASKED},
     {"relax, 2 classes, bounded", relaxed_classes_bounded, 100000, MOST_ASKED},
     {"scatter", scattered, 300000, MOST_ASKED},

@@ -2,15 +2,16 @@
 
 use azulejo_core::Domain;
 use azulejo_core::dcr::{
-    self, Convergence, DelaunayOptions, Density, Distribution, Method, Neighbourhood, Stopped, Thesis, Visits, surface,
+    self, Convergence, CorrelationOptions, DelaunayOptions, Density, Distribution, Method, Neighbourhood, PairCorrelation,
+    Stopped, Thesis, Visits, surface,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::analysis::PlaneSet;
-use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_whole, natural, whole};
+use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_whole, natural, real, whole};
 use crate::array::{Array, line};
-use crate::error::invalid;
+use crate::error::{invalid, raised};
 use crate::frame::Frame;
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -38,6 +39,9 @@ report! {
         class_rho: Option<Py<PyArray1<f64>>>,
         /// Of several classes: the covering radius of each, float64, shape (k,), in the same units; infinite for no point.
         class_relative_covering_radius: Option<Py<PyArray1<f64>>>,
+        /// Of a relaxation to a pair correlation: the root mean square, over frequencies up to 2 sqrt(density), of the
+        /// difference of the power and the one wanted, both smoothed over about 1 / reach.
+        residual: Option<f64>,
     }
 }
 
@@ -62,6 +66,7 @@ impl From<dcr::Report> for DcrReport {
             relative_covering_radius: Some(relative_covering_radius),
             class_rho: None,
             class_relative_covering_radius: None,
+            residual: None,
         }
     }
 }
@@ -78,6 +83,7 @@ impl From<surface::Report> for DcrReport {
             relative_covering_radius: None,
             class_rho: None,
             class_relative_covering_radius: None,
+            residual: None,
         }
     }
 }
@@ -232,6 +238,71 @@ pub(crate) fn dcr_relax_classes(
         ..report.into()
     };
     Points::plane(py, samples, &set.frame)?.with_classes(py, classes.to_vec()).with_report(py, report)
+}
+
+/// Makes the pair correlation g(r) of sets with a radial mean of the power, for dcr_relax_to_correlation (Heck et al.
+/// 2013).
+///
+/// power: float64, shape (n,), 0 or above: the power in bins of equal width from frequency 0 to highest, in units of
+///     sqrt(density); beyond them it is 1. [0.0] is step noise.
+/// highest: where the last bin ends.
+/// reach, bins: g is evaluated in the middles of so many bins of equal width from 0 to reach, in units of d_max.
+///
+/// Returns float64, shape (bins,).
+#[pyfunction]
+#[pyo3(signature = (power, highest, *, reach=12.0, bins=480))]
+pub(crate) fn dcr_correlation_of_power(
+    py: Python<'_>,
+    power: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::highest)] highest: f64,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = whole::bins)] bins: i128,
+) -> PyResult<Py<PyArray1<f64>>> {
+    let power = Array::<f64>::read("power", power)?;
+    let made = PairCorrelation::of_power(highest, power.line()?, reach, natural("bins", bins)?);
+    Ok(line(py, made.map_err(raised)?.values().to_vec()))
+}
+
+/// Moves points of a periodic domain until their pair correlation g(r), and with it the radial mean of their power, is the
+/// one wanted: general spectra (thesis eq. 4.3, 4.4; Heck et al. 2013). Uniform random points are a good start.
+///
+/// positions: the points, float32, shape (n, 2), in domain_min <= x < domain_max.
+/// correlation: g, float64, shape (bins,), in bins of equal width from distance 0 to reach, in units of d_max: of
+///     plane_radial_distribution (times (n - 1) / n for n points, to be matched to the last) or dcr_correlation_of_power.
+/// tolerance: the residual at which a set has converged; default 0.005. The others are those of dcr_relax.
+///
+/// Returns Points, in the order of positions, with the report DcrReport, which has the residual: of the states, the one
+/// with the least. Where no set has the correlation, all steps are made, and stopped is "steps".
+#[pyfunction]
+#[pyo3(signature = (
+    positions, correlation, reach, *, domain_min=None, domain_max=None, boundary=None, max_iterations=100,
+    tolerance=None, seed=0, threads=0, progress=None
+))]
+pub(crate) fn dcr_relax_to_correlation(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    correlation: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = maybe_pair::domain_min)] domain_min: Option<[f64; 2]>,
+    #[pyo3(from_py_with = maybe_pair::domain_max)] domain_max: Option<[f64; 2]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let set = PlaneSet::read(positions, domain_min, domain_max, boundary)?;
+    let correlation = Array::<f64>::read("correlation", correlation)?;
+    let target = PairCorrelation::new(reach, correlation.line()?).map_err(raised)?;
+    let points = set.points()?;
+    let request = CorrelationOptions::new(set.frame.domain).max_iterations(natural("max_iterations", max_iterations)?);
+    let request = request.seed(natural("seed", seed)?);
+    let request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let (relaxed, report) = Watch::new(py, threads, progress)?
+        .run(|context, progress| dcr::relax_to_correlation(context, &request, points, &target, progress))?;
+    let report = DcrReport { residual: Some(report.residual), ..report.set.into() };
+    Points::plane(py, relaxed, &set.frame)?.with_report(py, report)
 }
 
 /// The upper corner of the domain over which an image is laid: where no corner is given, it has the proportions of the

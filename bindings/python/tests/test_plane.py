@@ -114,6 +114,24 @@ def test_relaxation_spreads_points():
     assert thesis.report.iterations <= 5
 
 
+def test_relaxation_reaches_a_power_and_a_measured_correlation():
+    random = azulejo.dcr_scatter(np.ones((1, 1)), 2000)
+    correlation = azulejo.dcr_correlation_of_power([0.0], 0.5)
+    assert correlation.shape == (480,) and 0.1 < correlation[0] < 0.4
+    step = azulejo.dcr_relax_to_correlation(random, correlation, 12.0)
+    assert step.report.stopped == "converged" and step.report.residual <= 0.005
+    measured = azulejo.plane_radial_distribution(step, 12.0, 480)
+    again = azulejo.dcr_relax_to_correlation(random, measured, 12.0)
+    assert again.report.stopped == "converged" and again.report.iterations > 1
+    nowhere = azulejo.dcr_relax_to_correlation(random, [-1.0], 2.0, max_iterations=3)
+    assert nowhere.report.stopped == "steps" and nowhere.report.residual > 0.1
+    assert azulejo.dcr_relax(random, max_iterations=1).report.residual is None
+    with pytest.raises(ValueError, match="boundary"):
+        azulejo.dcr_relax_to_correlation(random, correlation, 12.0, boundary="bounded")
+    with pytest.raises(ValueError, match="power"):
+        azulejo.dcr_correlation_of_power([-1.0], 0.5)
+
+
 def test_relaxation_spreads_classes():
     before = azulejo.kdrt_sample_classes(azulejo.classes_radii([0.08, 0.05]))
     after = azulejo.dcr_relax_classes(before.positions, before.classes)

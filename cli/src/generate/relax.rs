@@ -3,17 +3,18 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use azulejo::dcr::{self, Neighbourhood, surface};
+use azulejo::dcr::{self, CorrelationOptions, Neighbourhood, Stopped, surface};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Error, Points, Progress, Result};
+use azulejo::{Context, Domain, Error, Points, Progress, Result};
 use clap::{Args, ValueEnum};
 
+use super::spectrum::Spectrum;
 use super::{Common, report};
 use crate::domain::DomainArgs;
 use crate::formats::points::PointTable;
 use crate::formats::set::ClassColumn;
 use crate::formats::surface::SurfaceTable;
-use crate::formats::{Input, ON_MESH, blame};
+use crate::formats::{Input, ON_MESH, PointFile, blame};
 use crate::input;
 use crate::output::Output;
 use crate::ply;
@@ -42,6 +43,11 @@ pub struct Relax {
     /// The neighbours that act on a point.
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
+    /// Gives the set, which is periodic and of one class, this radial power instead: `step[:FREQUENCY]` is 0 up to the
+    /// frequency and 1 above [0.5], `peak[:FREQUENCY[:WIDTH[:HEIGHT]]]` rises there over the width to a peak [0.6, 0.06,
+    /// 1], in units of sqrt(density); FILE is a set of the plane that has it.
+    #[arg(long, value_name = "step|peak|FILE", conflicts_with_all = ["mesh", "bounded", "neighbourhood"])]
+    spectrum: Option<Spectrum>,
     /// Ignores the classes of the file: the points are relaxed as one set. Otherwise each class of a set of the plane
     /// is relaxed together with the union.
     #[arg(long)]
@@ -77,6 +83,9 @@ impl Relax {
         let domain = self.domain.of(&set).ok_or_else(|| {
             self.refused("does not name its domain, and does not fill the unit square: give --domain")
         })?;
+        if let Some(spectrum) = &self.spectrum {
+            return self.run_to(context, spectrum, &set.points, domain, classes.is_some(), &output);
+        }
         let neighbourhood = match self.neighbourhood {
             Neighbours::Delaunay => Neighbourhood::Delaunay,
             Neighbours::Nearest => Neighbourhood::Nearest,
@@ -105,6 +114,45 @@ impl Relax {
         let of_classes: Vec<_> = each.iter().map(|class| rounded(class.rho, 3)).collect();
         let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" / ")) };
         let about = about(done.iterations, done.smallest_distance) + &of_classes;
+        report(&output.output, relaxed.len(), &about, seconds);
+        Ok(())
+    }
+
+    /// Relaxation to another spectrum.
+    fn run_to(
+        &self,
+        context: &Context,
+        spectrum: &Spectrum,
+        points: &[[f32; 2]],
+        domain: Domain,
+        has_classes: bool,
+        output: &PointFile,
+    ) -> Result<()> {
+        if has_classes {
+            return Err(
+                self.refused("has classes, for which there is no --spectrum: --no-classes takes it for one set")
+            );
+        }
+        let target = spectrum.correlation(context, |path| {
+            let set = self.format.read_plane(path, ON_MESH)?;
+            let domain = self.domain.of(&set).ok_or_else(|| {
+                let reason = "does not name its domain, and does not fill the unit square: give --domain";
+                Error::Format { path: path.to_owned(), reason: reason.to_owned() }
+            })?;
+            Ok((set.points, domain))
+        })?;
+        let mut options = CorrelationOptions::new(domain).seed(self.common.seed);
+        options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
+        let start = Instant::now();
+        let (relaxed, done) =
+            watched("relax", |progress| dcr::relax_to_correlation(context, &options, points, &target, Some(progress)))
+                .map_err(|error| blame(&self.input, error))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let class_radii = &[done.set.smallest_distance];
+        output.write_points(&domain, &PointTable { class_radii, ..PointTable::of(&relaxed) })?;
+        let reached = if done.set.stopped == Stopped::Converged { "reached" } else { "not reached" };
+        let about = about(done.set.iterations, done.set.smallest_distance);
+        let about = about + &format!(", spectrum {reached}, residual {}", rounded(done.residual, 4));
         report(&output.output, relaxed.len(), &about, seconds);
         Ok(())
     }

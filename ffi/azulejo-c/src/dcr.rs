@@ -2,9 +2,12 @@
 
 use std::ffi::c_void;
 
-use azulejo_core::dcr::{self, Convergence, Distribution, Method, Neighbourhood, Report, Stopped, Thesis, Visits};
+use azulejo_core::dcr::{
+    self, Convergence, CorrelationOptions, Distribution, Method, Neighbourhood, PairCorrelation, Report, Stopped,
+    Thesis, Visits,
+};
 
-use crate::boundary::{Out, check_reserved, check_unused, rows};
+use crate::boundary::{self, Out, check_pointer, check_reserved, check_unused, rows};
 use crate::classes::AZULEJO_MAX_CLASSES;
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
@@ -411,6 +414,107 @@ fn check_classes(classes: &[u32], count: u32) -> Result<(), Failure> {
         Some(index) => Err(Failure::invalid("classes", format!("[{index}] is {}, not below {count}", classes[index]))),
         None => Ok(()),
     }
+}
+
+/// Makes the pair correlation g(r) of sets with a radial mean of the power, for
+/// azulejo_dcr_relax_to_correlation: g(r) = 1 + the integral of (P - 1) J0(2 pi frequency r)
+/// 2 pi frequency over the frequencies, r in units of 1 / sqrt(density) (Heck et al. 2013).
+///
+/// power: `count` numbers, 1 to 65536, at least 0: the power in bins of equal width from frequency 0
+/// to `highest`, in units of sqrt(density); beyond them it is 1. One bin of power 0 is step noise.
+///
+/// reach: where the last bin of `out` ends, above 0, in units of d_max. 12 is more than is matched.
+///
+/// out: an array of `bins` numbers, 1 to 65536: g in the middles of bins of equal width from 0 to
+/// `reach`. Bins of 0.05 or less show all that is matched. Not written if the call fails.
+///
+/// O(count * bins) time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_correlation_of_power(
+    highest: f64,
+    power: *const f64,
+    count: usize,
+    reach: f64,
+    bins: usize,
+    out: *mut f64,
+) -> azulejo_status {
+    boundary::call(|| {
+        check_pointer("out", out)?;
+        // SAFETY: handed on from the caller.
+        let power = unsafe { rows::<f64, 1>("power", power, "count", count) }?.as_flattened();
+        let correlation = PairCorrelation::of_power(highest, power, reach, bins)?;
+        // SAFETY: the caller has room for `bins` numbers there, as many as were asked for.
+        unsafe { out.copy_from_nonoverlapping(correlation.values().as_ptr(), bins) };
+        Ok(())
+    })
+}
+
+/// Moves points of a periodic domain until their pair correlation g(r), and with it the radial mean
+/// of their power, is the one wanted: general spectra (thesis eq. 4.3, 4.4 and 5.2; Heck et al.
+/// 2013). Uniform random points are a good start; a clustered set is levelled before the first
+/// step. Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults, which it
+/// does not use otherwise; `tolerance` is that of the residual, by default 0.005.
+///
+/// positions: the points, x y each.
+///
+/// reach: where the last bin ends, above 0, in units of d_max. Correlations are matched up to this,
+/// 11.2 d_max and 0.42 of the shorter period, whichever is least.
+///
+/// correlation: `bins` finite numbers, 1 to 65536: g in bins of equal width from 0 to `reach`, as
+/// azulejo_plane_radial_distribution measures it (times (n - 1) / n for n points, to the last) or
+/// azulejo_dcr_correlation_of_power makes it.
+///
+/// residual: a number, or NULL: the root mean square, over frequencies up to 2 sqrt(density), of the
+/// difference of the power and the one wanted, both smoothed over about 1 / reach; 0 for fewer than
+/// two points.
+///
+/// out: of the states, the one with the least residual, in the order of the positions. A correlation
+/// that no set has, such as one below 0, is no error: all steps are made, and `stopped` is not
+/// AZULEJO_STOPPED_CONVERGED.
+///
+/// O(count * reach^2) time for each step, O(count) memory.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_relax_to_correlation(
+    context: *const azulejo_context,
+    options: *const azulejo_dcr_options,
+    positions: *const f32,
+    count: usize,
+    reach: f64,
+    correlation: *const f64,
+    bins: usize,
+    residual: *mut f64,
+    out: *mut *mut azulejo_points,
+    report: *mut azulejo_dcr_report,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let (options, report): (azulejo_dcr_options, _) =
+            unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let points = unsafe { rows::<f32, 2>("positions", positions, "count", count) }?;
+        // SAFETY: handed on from the caller.
+        let correlation = unsafe { rows::<f64, 1>("correlation", correlation, "bins", bins) }?.as_flattened();
+        let target = PairCorrelation::new(reach, correlation)?;
+        let steps = options.request()?.to_delaunay("pair correlations")?;
+        let request = CorrelationOptions::new(steps.domain).max_iterations(steps.max_iterations).seed(steps.seed);
+        let tolerance = if options.tolerance < 0.0 { request.tolerance } else { options.tolerance };
+        let request = request.tolerance(tolerance);
+        let (relaxed, done) = context.run(options.watch(), |context, progress| {
+            dcr::relax_to_correlation(context, &request, points, &target, progress)
+        })?;
+        if !residual.is_null() {
+            // SAFETY: the caller has room for a number there.
+            unsafe { residual.write(done.residual) };
+        }
+        if let Some(report) = report {
+            report.write(done.set);
+        }
+        Ok(azulejo_points::plane(relaxed))
+    })
 }
 
 #[cfg(test)]

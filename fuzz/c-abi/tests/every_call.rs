@@ -516,6 +516,17 @@ fn points() {
             azulejo_dcr_relax_classes(context.get(), &options, xy_of, of, 3, 2, rho, coverage, out, null_mut())
         };
         assert_eq!(read_and_free(made(relax)), 3);
+        let mut correlation = [0.0; 40];
+        let status = azulejo_dcr_correlation_of_power(0.5, [0.0].as_ptr(), 1, 4.0, 40, correlation.as_mut_ptr());
+        assert_eq!(status, AZULEJO_OK);
+        let (g, mut residual) = (correlation.as_ptr(), -1.0);
+        let relax = |out: Out<_>| {
+            azulejo_dcr_relax_to_correlation(
+                context.get(), &options, xy.as_ptr(), 3, 4.0, g, 40, &raw mut residual, out, null_mut(),
+            )
+        };
+        assert_eq!(read_and_free(made(relax)), 3);
+        assert!(residual >= 0.0);
         let mut set = defaults(azulejo_plane_set_init);
         (set.positions, set.count, set.boundary) = (xy.as_ptr(), 3, AZULEJO_BOUNDARY_BOUNDED);
         for figure in [azulejo_plane_smallest_distance, azulejo_plane_covering_radius] {
