@@ -1,6 +1,7 @@
 //! Domains and point containers.
 
 use crate::error::{Error, Result};
+use crate::math::cbrt;
 use crate::{centred, check};
 
 pub(crate) use crate::check::{finest_radius, radius as check_radius, resolution as check_resolution};
@@ -105,15 +106,26 @@ impl<const D: usize> Domain<D> {
     }
 }
 
-impl Domain {
-    /// The area.
-    pub fn area(&self) -> f64 {
-        let [width, height] = self.extent();
-        width * height
+impl<const D: usize> Domain<D> {
+    /// The area or volume.
+    pub(crate) fn content(&self) -> f64 {
+        self.extent().into_iter().product()
+    }
+
+    /// The side of cells of which no more than about `limit` fill the domain, nor more along one axis or two of it.
+    pub(crate) fn cell_side(&self, limit: f64) -> f64 {
+        let mut sides = self.extent();
+        sides.sort_unstable_by(|a, b| b.total_cmp(a));
+        let (mut content, mut side) = (1.0, 0.0);
+        for (length, root) in sides.into_iter().zip([|x| x, f64::sqrt, cbrt]) {
+            content *= length;
+            side = f64::max(side, root(content / limit));
+        }
+        side
     }
 
     /// The vector from `from` to `to`; on a torus the shortest of its images.
-    pub fn offset(&self, from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    pub fn offset(&self, from: [f64; D], to: [f64; D]) -> [f64; D] {
         let extent = self.extent();
         std::array::from_fn(|axis| {
             let d = to[axis] - from[axis];
@@ -128,31 +140,52 @@ impl Domain {
         })
     }
 
-    /// The distance of neighbours if `count` points stood in hexagonal arrangement on the area:
-    /// `d_max = sqrt(2 A / (sqrt(3) N))`. (The thesis's `r_max` of §1.4 is a disk radius, half of it.)
-    pub fn hexagonal_distance(&self, count: usize) -> f64 {
-        (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
-    }
-
     /// Refuses an invalid domain, and points (`positions`) outside it.
-    pub(crate) fn check_set(&self, points: &[[f32; 2]]) -> Result<()> {
+    pub(crate) fn check_set(&self, points: &[[f32; D]]) -> Result<()> {
         self.check()?;
         self.check_points(points)
     }
 
     /// Refuses points (`positions`) that do not lie in `min <= x < max`, and more of them than can be indexed.
-    pub(crate) fn check_points(&self, points: &[[f32; 2]]) -> Result<()> {
+    pub(crate) fn check_points(&self, points: &[[f32; D]]) -> Result<()> {
         check::indexable("positions", "points", points.len())?;
         match points.iter().position(|&point| !self.contains(point)) {
             None => Ok(()),
             Some(index) => {
-                let ([x, y], Self { min, max, .. }) = (points[index], self);
+                let Self { min, max, .. } = self;
+                let point = points[index].map(|x| x.to_string()).join(", ");
                 Err(Error::invalid(
                     "positions",
-                    format!("point {index} is ({x}, {y}), outside the domain {min:?} to {max:?}"),
+                    format!("point {index} is ({point}), outside the domain {min:?} to {max:?}"),
                 ))
             }
         }
+    }
+}
+
+impl Domain {
+    /// The area.
+    pub fn area(&self) -> f64 {
+        self.content()
+    }
+
+    /// The distance of neighbours if `count` points stood in hexagonal arrangement on the area:
+    /// `d_max = sqrt(2 A / (sqrt(3) N))`. (The thesis's `r_max` of §1.4 is a disk radius, half of it.)
+    pub fn hexagonal_distance(&self, count: usize) -> f64 {
+        (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
+    }
+}
+
+impl Domain<3> {
+    /// The volume.
+    pub fn volume(&self) -> f64 {
+        self.content()
+    }
+
+    /// The distance of neighbours if `count` points stood in the densest packing of the volume, face-centred cubic:
+    /// `d_max = cbrt(sqrt(2) V / N)`.
+    pub fn packed_distance(&self, count: usize) -> f64 {
+        cbrt(2f64.sqrt() * self.volume() / count as f64)
     }
 }
 
