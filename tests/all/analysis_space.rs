@@ -4,7 +4,7 @@ use azulejo::analysis::coverage::{Coverage, coverage_3d, covering_radius_3d};
 use azulejo::analysis::space::{SpaceFigures, figures_3d};
 use azulejo::psp::TOLERANCE;
 use azulejo::volume::{Options, sample};
-use azulejo::{Boundary, Context, Domain, Error};
+use azulejo::{Boundary, Context, Domain, Error, Given};
 
 use crate::common::random::Random;
 use crate::common::volume_oracle::{HARD_CUBOIDS, distance, gap};
@@ -166,34 +166,34 @@ fn gaps_deeper_than_a_millionth_are_counted() {
             let found = coverage(&cube(boundary), &points, farthest * (1.0 - depth) - rounding);
             assert_eq!(found.gaps, gaps, "{boundary:?}, depth {depth}");
         }
-        assert_eq!(coverage(&cube(boundary), &points, 0.5).gaps, 1, "all holes are one");
+        // Holes meet where a face of the lattice is open, from its middle on.
+        assert_eq!(coverage(&cube(boundary), &points, 0.67).gaps, 1, "all holes are one");
     }
 }
 
-/// Without a sample a set has a gap, also across the corner of a torus, where it is one of eight parts.
+/// Balls that are kept free are gaps: one in the middle, and one across the corner of a torus, of which a bounded cuboid has
+/// an eighth.
 #[test]
-fn what_was_taken_out_is_a_gap() {
+fn balls_that_are_kept_free_are_gaps() {
     for boundary in BOUNDARIES {
         let domain = Domain { min: [-3.0, 0.5, 7.0], max: [-2.0, 1.5, 8.5], boundary };
-        let radius = 0.11;
-        let samples = sample(&context(), &Options::new(radius).domain(domain), None).unwrap().0.positions;
-        assert_eq!(coverage(&domain, &samples, radius).gaps, 0);
-        let middle = [-2.5, 1.0, 7.75];
-        for (centre, parts) in [(middle, 1), (domain.min, if boundary == Boundary::Periodic { 1 } else { 0 })] {
-            let far = |sample: &&[f32; 3]| distance(&domain, sample.map(f64::from), centre) > 2.0 * radius;
-            let holed: Vec<_> = samples.iter().filter(far).copied().collect();
-            let found = coverage(&domain, &holed, radius);
-            assert!(parts == 0 || found.gaps == parts, "{boundary:?} {centre:?}: {found:?}");
-            assert!(found.gaps > 0 && found.farthest >= 2.0 * radius, "{boundary:?} {centre:?}: {found:?}");
-            // Both at once.
-            let far = |sample: &&[f32; 3]| distance(&domain, sample.map(f64::from), [-2.5, 1.0, 7.0]) > 2.0 * radius;
-            let holed: Vec<_> = holed.into_iter().filter(|sample| far(&sample)).collect();
-            assert_eq!(coverage(&domain, &holed, radius).gaps, found.gaps + 1, "{boundary:?} {centre:?}");
+        let radius = 0.08;
+        for balls in
+            [vec![[-2.5, 1.0, 7.75]], vec![[-3.0, 0.5, 7.0]], vec![[-2.5, 1.0, 7.75], [-3.0, 0.5, 7.0]], vec![]]
+        {
+            let clearances = vec![3.0 * radius; balls.len()];
+            let options = Options::new(radius).domain(domain).given(Given::with_clearances(&balls, &clearances));
+            let samples = sample(&context(), &options, None).unwrap().0.positions;
+            let found = coverage(&domain, &samples, radius);
+            assert_eq!(found.gaps, balls.len(), "{boundary:?} {balls:?}: {found:?}");
+            let is_deep = found.farthest >= 3.0 * radius;
+            assert!(is_deep != balls.is_empty(), "{boundary:?} {balls:?}: {found:?}");
         }
     }
 }
 
-/// The library's own maximal sets, also in hard cuboids, have no gap and no conflict; without any one sample they have a gap.
+/// The library's own maximal sets, also in hard cuboids, have no gap and no conflict; without one sample nothing is nearer than
+/// the radius to its place, by more than the tolerance only where floats are fine.
 #[test]
 fn maximal_sets_have_no_gap_and_no_conflict() {
     for boundary in BOUNDARIES {
@@ -202,10 +202,13 @@ fn maximal_sets_have_no_gap_and_no_conflict() {
             let mut samples = sample(&context(), &Options::new(radius).domain(domain), None).unwrap().0.positions;
             let found = figures(&domain, &samples, radius);
             assert_eq!((found.conflicts, coverage(&domain, &samples, radius).gaps), (0, 0), "{domain:?}");
-            assert!(figures(&domain, &samples, found.smallest * (1.0 + 1e-9)).conflicts > 0);
+            if found.count > 1 {
+                assert!(figures(&domain, &samples, found.smallest * (1.0 + 1e-9)).conflicts > 0);
+            }
             samples.swap_remove(samples.len() / 2);
             let found = coverage(&domain, &samples, radius);
-            assert!(found.gaps > 0 && found.farthest >= radius, "{domain:?}: {found:?}");
+            let is_fine = radius > 1000.0 * float_spacing(&domain);
+            assert!(found.farthest >= radius && (found.gaps > 0 || !is_fine), "{domain:?}: {found:?}");
         }
     }
 }
@@ -240,7 +243,7 @@ fn threads_change_nothing() {
             let context = Context::new(threads).unwrap();
             let figures = figures_3d(&context, &domain, &points, 0.05, None).unwrap();
             let coverage = coverage_3d(&context, &domain, &points, 0.1, None).unwrap();
-            assert!(figures.conflicts > 1000 && coverage.gaps > 100, "{figures:?} {coverage:?}");
+            assert!(figures.conflicts > 500 && coverage.gaps > 10, "{figures:?} {coverage:?}");
             format!("{figures:?} {coverage:?}")
         };
         assert_eq!(of(1), of(2));

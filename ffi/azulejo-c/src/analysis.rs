@@ -101,8 +101,8 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
-/// The coverage of a domain or a surface by disks or balls of a radius, from azulejo_plane_coverage,
-/// azulejo_space_coverage and azulejo_mesh_coverage.
+/// The coverage of a domain or a surface by disks or balls of a radius, from
+/// azulejo_plane_coverage, azulejo_space_coverage and azulejo_mesh_coverage.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_coverage_report {
