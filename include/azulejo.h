@@ -42,8 +42,8 @@
  *   samples of a cuboid                           azulejo_volume_sample
  *   samples inside a mesh                         azulejo_volume_sample_inside
  *   which points are inside a mesh                azulejo_mesh_contains
- *   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_mesh_coverage,
- *                                                 azulejo_spectrum_create
+ *   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_space_measure,
+ *                                                 azulejo_mesh_coverage, azulejo_spectrum_create
  *   a blue-noise mask, to dither or per pixel     azulejo_mask_create
  *   the slow unbiased reference                   azulejo_maximal_sample
  *

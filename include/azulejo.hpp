@@ -514,11 +514,33 @@ struct Domain {
         : min(options.domain_min), max(options.domain_max), boundary(options.boundary) {}
 };
 
+/// A cuboid and its AZULEJO_BOUNDARY_: the unit torus unless told otherwise.
+struct Cuboid {
+    Triple min{0, 0, 0};
+    Triple max{1, 1, 1};
+    std::uint32_t boundary = AZULEJO_BOUNDARY_PERIODIC;
+
+    Cuboid() = default;
+    Cuboid(Triple low, Triple high, std::uint32_t boundary_kind = AZULEJO_BOUNDARY_PERIODIC)
+        : min(low), max(high), boundary(boundary_kind) {}
+    /// That of the options that a set was made with.
+    template <class Options, class = decltype(std::declval<const Options &>().domain_min)>
+    Cuboid(const Options &options)
+        : min(options.domain_min), max(options.domain_max), boundary(options.boundary) {}
+};
+
 /// Points of the plane and where they lie, such as {points, options}; see azulejo_plane_set. The
 /// points stay the caller's.
 struct PlaneSet {
     Borrowed<PlanePoints> positions;
     Domain domain{};
+};
+
+/// Points of a cuboid and where they lie, such as {points, options}; see azulejo_space_set. The
+/// points stay the caller's.
+struct SpaceSet {
+    Borrowed<SpacePoints> positions;
+    Cuboid domain{};
 };
 
 // ---- Instances ---------------------------------------------------------------------------------
@@ -1003,6 +1025,7 @@ using DcrReport = Report<azulejo_dcr_report, azulejo_dcr_report_init>;
 using DcrSurfaceReport = Report<azulejo_dcr_surface_report, azulejo_dcr_surface_report_init>;
 using DcrRemeshReport = Report<azulejo_dcr_remesh_report, azulejo_dcr_remesh_report_init>;
 using PlaneReport = Report<azulejo_plane_report, azulejo_plane_report_init>;
+using SpaceReport = Report<azulejo_space_report, azulejo_space_report_init>;
 using SpectrumReport = Report<azulejo_spectrum_report, azulejo_spectrum_report_init>;
 using CoverageReport = Report<azulejo_coverage_report, azulejo_coverage_report_init>;
 using Annulus = azulejo_annulus;
@@ -2097,23 +2120,42 @@ inline Status try_dcr_remesh(const Context &context, const Mesh &mesh, const Poi
 namespace detail {
 
 /// The C struct of a set.
-inline Status plane_set(const PlaneSet &set, azulejo_plane_set &out) {
+template <class Set, class CSet>
+Status c_set(const Set &set, azulejo_status (*init)(CSet *, std::size_t), CSet &out) {
     if (Status s = set.positions.check("positions"); !s.ok()) return s;
-    if (Status s{azulejo_plane_set_init(&out, sizeof out)}; !s.ok()) return s;
+    if (Status s{init(&out, sizeof out)}; !s.ok()) return s;
     out.boundary = set.domain.boundary;
     out.positions = set.positions.data();
     out.count = set.positions.size();
-    std::copy_n(set.domain.min.data(), 2, out.domain_min);
-    std::copy_n(set.domain.max.data(), 2, out.domain_max);
+    std::copy_n(set.domain.min.data(), std::size(out.domain_min), out.domain_min);
+    std::copy_n(set.domain.max.data(), std::size(out.domain_max), out.domain_max);
     return Status();
 }
 
+inline Status c_set(const PlaneSet &set, azulejo_plane_set &out) {
+    return c_set(set, azulejo_plane_set_init, out);
+}
+
+inline Status c_set(const SpaceSet &set, azulejo_space_set &out) {
+    return c_set(set, azulejo_space_set_init, out);
+}
+
 /// Makes a C call with the C struct of a set.
+template <class CSet, class Set, class Call>
+Status measured_as(const Set &set, Call call) {
+    CSet c = {};
+    if (Status s = c_set(set, c); !s.ok()) return s;
+    return run([&] { return call(&c); });
+}
+
 template <class Call>
 Status measured(const PlaneSet &set, Call call) {
-    azulejo_plane_set c_set = {};
-    if (Status s = plane_set(set, c_set); !s.ok()) return s;
-    return run([&] { return call(&c_set); });
+    return measured_as<azulejo_plane_set>(set, call);
+}
+
+template <class Call>
+Status measured(const SpaceSet &set, Call call) {
+    return measured_as<azulejo_space_set>(set, call);
 }
 
 /// The C handles of several owners.
@@ -2186,6 +2228,20 @@ inline Status try_space_smallest_distance(const Context &context, const SpacePoi
     });
 }
 
+/// See azulejo_space_coverage.
+inline Status try_space_coverage(const Context &context, const SpaceSet &set, double radius,
+                                 CoverageReport &out) {
+    return detail::measured(
+        set, [&](const auto *s) { return azulejo_space_coverage(context.get(), s, radius, &out); });
+}
+
+/// See azulejo_space_measure.
+inline Status try_space_measure(const Context &context, const SpaceSet &set, double radius,
+                                SpaceReport &out) {
+    return detail::measured(
+        set, [&](const auto *s) { return azulejo_space_measure(context.get(), s, radius, &out); });
+}
+
 /// See azulejo_mesh_uncovered_fraction.
 inline Status try_mesh_uncovered_fraction(const Context &context, const Mesh &mesh,
                                           const SpacePoints &positions, double radius,
@@ -2228,7 +2284,7 @@ public:
     static Status try_create(const Context &context, const PlaneSet &set, std::uint32_t size,
                              std::uint32_t frequency_stride, Spectrum &out) {
         azulejo_plane_set c_set = {};
-        if (Status s = detail::plane_set(set, c_set); !s.ok()) return s;
+        if (Status s = detail::c_set(set, c_set); !s.ok()) return s;
         return detail::make(out, [&](auto **spectrum) {
             return azulejo_spectrum_create(context.get(), &c_set, size, frequency_stride, spectrum);
         });
@@ -2630,6 +2686,19 @@ inline double space_smallest_distance(const Context &context, const SpacePoints 
     double distance = 0;
     check(try_space_smallest_distance(context, positions, distance));
     return distance;
+}
+
+inline CoverageReport space_coverage(const Context &context, const SpaceSet &set, double radius) {
+    CoverageReport coverage;
+    check(try_space_coverage(context, set, radius, coverage));
+    return coverage;
+}
+
+/// Pairs nearer than `radius` are counted as conflicts.
+inline SpaceReport space_measure(const Context &context, const SpaceSet &set, double radius = 0) {
+    SpaceReport report;
+    check(try_space_measure(context, set, radius, report));
+    return report;
 }
 
 inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh,

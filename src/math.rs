@@ -8,7 +8,7 @@ use std::ops::Mul;
 
 use glam::DVec2;
 
-pub(crate) use libm::{acos, atan2, cos, erfc, exp, exp2, hypot, j0, j1, log, log2, pow, scalbn, sin, sincos};
+pub(crate) use libm::{acos, atan2, cbrt, cos, erfc, exp, exp2, hypot, j0, j1, log, log2, pow, scalbn, sin, sincos};
 
 /// The unit vector at an angle to the first axis.
 pub(crate) fn direction(angle: f64) -> DVec2 {

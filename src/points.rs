@@ -1,6 +1,7 @@
 //! Domains and point containers.
 
 use crate::error::{Error, Result};
+use crate::math::cbrt;
 use crate::{centred, check};
 
 pub(crate) use crate::check::{finest_radius, radius as check_radius, resolution as check_resolution};
@@ -138,19 +139,48 @@ impl<const D: usize> Domain<D> {
             }
         }
     }
+
+    /// The area or volume.
+    pub(crate) fn content(&self) -> f64 {
+        self.extent().into_iter().product()
+    }
+
+    /// The side of cells of which no more than about `limit` fill the domain, nor more along one axis or two of it.
+    pub(crate) fn cell_side(&self, limit: f64) -> f64 {
+        let mut sides = self.extent();
+        sides.sort_unstable_by(|a, b| b.total_cmp(a));
+        let (mut content, mut side) = (1.0, 0.0);
+        for (length, root) in sides.into_iter().zip([|x| x, f64::sqrt, cbrt]) {
+            content *= length;
+            side = f64::max(side, root(content / limit));
+        }
+        side
+    }
 }
 
 impl Domain {
     /// The area.
     pub fn area(&self) -> f64 {
-        let [width, height] = self.extent();
-        width * height
+        self.content()
     }
 
     /// The distance of neighbours if `count` points stood in hexagonal arrangement on the area:
     /// `d_max = sqrt(2 A / (sqrt(3) N))`. (The thesis's `r_max` of §1.4 is a disk radius, half of it.)
     pub fn hexagonal_distance(&self, count: usize) -> f64 {
         (2.0 * self.area() / (3f64.sqrt() * count as f64)).sqrt()
+    }
+}
+
+impl Domain<3> {
+    /// The volume.
+    pub fn volume(&self) -> f64 {
+        self.content()
+    }
+
+    /// The distance of neighbours if `count` points stood in the densest packing of the volume, face-centred cubic:
+    /// `d_max = cbrt(sqrt(2) V / N)`.
+    pub fn packed_distance(&self, count: usize) -> f64 {
+        cbrt(2f64.sqrt() * self.volume() / count as f64)
     }
 }
 

@@ -599,6 +599,33 @@ export interface Spacing {
 /** Measures points of the plane, x y each. */
 export function planeMeasure(positions: Numbers, options?: Domain): Spacing;
 
+/** What is measured of points of a cuboid. */
+export interface SpaceSpacing extends Spacing {
+    /** The mean distance of a point to its nearest neighbour. */
+    meanDistance: number;
+    /** The smallest distance over that of neighbours in the densest packing of as many points. */
+    rho: number;
+    /** The number of pairs that are nearer to each other than `radius`. */
+    conflicts: number;
+    /** The number of gaps that balls of `radius` leave: 0 for a maximal set. */
+    gaps: number;
+}
+
+/** Measures points of a cuboid, x y z each. */
+export function spaceMeasure(
+    positions: Numbers,
+    options?: {
+        /** Counts conflicts and gaps of this radius; default 0: none. */
+        radius?: number;
+        /** The lower corner; default [0, 0, 0]. */
+        domainMin?: readonly [number, number, number];
+        /** The upper corner; default [1, 1, 1]. */
+        domainMax?: readonly [number, number, number];
+        /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
+        boundary?: "periodic" | "bounded";
+    },
+): SpaceSpacing;
+
 /** Measures positions on a mesh, x y z each; distances are straight. */
 export function meshMeasure(mesh: Mesh, positions: Numbers): Spacing;
 

@@ -48,6 +48,7 @@ const VOLUME = {
     radius: 0, count: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic", seed: 0, order: "any",
     quotient: DEFAULT_QUOTIENT, givenPositions: null, givenClearances: null,
 };
+const SPACE = { radius: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic" };
 const INSIDE = {
     radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT,
     givenPositions: null, givenClearances: null,
@@ -741,6 +742,18 @@ export function planeMeasure(positions, options) {
         const args = [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2)];
         const [[smallestDistance, coveringRadius]] = call.make("plane_measure", args, Float64Array);
         return { smallestDistance, coveringRadius };
+    });
+}
+
+export function spaceMeasure(positions, options) {
+    options = withDefaults(SPACE, options);
+    return calling((call) => {
+        const numbers = domainOf(options, 3);
+        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const args = [place, options.radius, ...call.rows("positions", positions, Float32Array, 3)];
+        const [measured] = call.make("space_measure", args, Float64Array);
+        const [smallestDistance, meanDistance, rho, coveringRadius, conflicts, gaps] = measured;
+        return { smallestDistance, meanDistance, rho, coveringRadius, conflicts, gaps };
     });
 }
 

@@ -327,6 +327,24 @@ class CoverageReport:
     @property
     def gaps(self) -> int: ...
 
+class SpaceReport:
+    @property
+    def count(self) -> int: ...
+    @property
+    def smallest_distance(self) -> float: ...
+    @property
+    def mean_distance(self) -> float: ...
+    @property
+    def conflicts(self) -> int: ...
+    @property
+    def packed_distance(self) -> float: ...
+    @property
+    def rho(self) -> float: ...
+    @property
+    def covering_radius(self) -> float: ...
+    @property
+    def relative_covering_radius(self) -> float: ...
+
 class PlaneReport:
     @property
     def count(self) -> int: ...
@@ -768,6 +786,26 @@ def plane_coverage(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> CoverageReport: ...
+def space_coverage(
+    positions: ArrayLike,
+    radius: SupportsFloat,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> CoverageReport: ...
+def space_measure(
+    positions: ArrayLike,
+    radius: SupportsFloat = 0.0,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> SpaceReport: ...
 def mesh_coverage(
     mesh: _MeshLike,
     positions: ArrayLike,

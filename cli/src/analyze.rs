@@ -5,12 +5,13 @@ mod figures;
 mod page;
 mod plane;
 mod plots;
+mod space;
 mod surface;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use azulejo::{Context, Error, Result};
+use azulejo::{Context, Domain, Error, Result};
 use clap::Args;
 
 use crate::domain::{DomainArgs, OF_OR_AROUND};
@@ -33,6 +34,12 @@ pub struct Analyze {
     /// The mesh that the samples lie on: OBJ, PLY, STL, OFF or GLB.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
     mesh: Option<PathBuf>,
+    /// The corners of the cuboid that the samples fill, such as 0 0 0 1 1 1; a torus unless it is bounded.
+    #[arg(
+        long, num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"], allow_negative_numbers = true,
+        conflicts_with_all = ["domain", "mesh", "plots"]
+    )]
+    cuboid: Option<Vec<f64>>,
     /// A radius to check the sets against: compares it with smallest distance and covering radius, and counts gaps.
     #[arg(long, value_name = "R", allow_negative_numbers = true)]
     radius: Option<f64>,
@@ -56,9 +63,11 @@ impl Analyze {
             let reason = format!("{radius} is not a positive finite number");
             return Err(Error::InvalidArgument { argument: "--radius", reason });
         }
-        let text = match &self.mesh {
-            Some(mesh) => self.surface(context, mesh)?,
-            None => self.plane(context, &self.read(|path| self.input.read_plane(path, ON_MESH))?)?,
+        let cuboid = self.cuboid.as_deref().and_then(|corners| corners.try_into().ok());
+        let text = match (&self.mesh, cuboid) {
+            (Some(mesh), _) => self.surface(context, mesh)?,
+            (None, Some(corners)) => self.space(context, &self.domain.cuboid(corners))?,
+            (None, None) => self.plane(context, &self.read(|path| self.input.read_plane(path, ON_MESH))?)?,
         };
         print(text.as_bytes())
     }
@@ -88,6 +97,16 @@ impl Analyze {
             page::plane_json(&domain, sets, &measured)
         } else {
             page::plane_table(&domain, sets, &measured)
+        })
+    }
+
+    fn space(&self, context: &Context, domain: &Domain<3>) -> Result<String> {
+        let sets: &[Set<SampleSet>] = &self.read(|path| self.input.read_samples(path, [0.0; 3]))?;
+        let measured = space::Measured::of(context, domain, sets, self.radius)?;
+        Ok(if self.json {
+            page::space_json(domain, sets, &measured)
+        } else {
+            page::space_table(domain, sets, &measured)
         })
     }
 

@@ -50,6 +50,12 @@ impl DomainArgs {
         if self.bounded { Boundary::Bounded } else { Boundary::Periodic }
     }
 
+    /// The cuboid of six numbers, x y z of both corners.
+    pub fn cuboid(&self, corners: [f64; 6]) -> Domain<3> {
+        let [x0, y0, z0, x1, y1, z1] = corners;
+        Domain { min: [x0, y0, z0], max: [x1, y1, z1], boundary: self.boundary() }
+    }
+
     /// The domain asked for, or the unit square.
     pub fn or_unit(&self) -> Domain {
         self.asked().unwrap_or(Domain::unit(self.boundary()))

@@ -200,3 +200,33 @@ fn what_cannot_be_analysed_is_refused_with_its_file() {
     workshop.refuse(&["analyze"], 2);
     workshop.refuse(&["analyze", "lattice.xyz", "--mesh", "a.obj", "--bounded"], 2);
 }
+
+/// The simple cubic lattice of a torus, a quarter of a cell from its corner.
+#[test]
+fn a_lattice_of_a_cuboid_has_the_figures_of_a_lattice() {
+    let workshop = Workshop::new();
+    let at = |i: usize| [i % 8, i / 8 % 8, i / 64].map(|x| x as f64 + 0.25);
+    let text: String = (0..512).map(|i| at(i).map(|x| x.to_string()).join(" ") + "\n").collect();
+    workshop.write("cubes.xyz", text);
+    let cuboid = ["cubes.xyz", "--cuboid", "0", "0", "0", "8", "8", "8"];
+    let found = json(&workshop, &[&cuboid[..], &["--radius", "1"]].concat());
+    let (unit, covering) = (2f64.sqrt().cbrt(), 0.75f64.sqrt());
+    for (key, expected) in [
+        ("points", 512.0),
+        ("smallest_distance", 1.0),
+        ("rho", 1.0 / unit),
+        ("nearest_mean", 1.0 / unit),
+        ("covering_radius", covering),
+        ("covering_radius_relative", covering / unit),
+        ("covering_over_radius", covering),
+        ("gaps", 0.0),
+        ("conflicts", 0.0),
+    ] {
+        assert!((mean(&found, key) - expected).abs() < 1e-8, "{key}: {found}");
+    }
+    assert_eq!(found["domain"]["boundary"], "periodic");
+    let open = json(&workshop, &[&cuboid[..], &["--radius", "0.8", "--bounded"]].concat());
+    assert_eq!(mean(&open, "gaps"), 9.0 * 9.0 * 9.0);
+    let text = workshop.succeed(&[&["analyze"], &cuboid[..]].concat());
+    assert!(text.starts_with("cubes.xyz: x 0 to 8, y 0 to 8, z 0 to 8, periodic\n"), "{text}");
+}

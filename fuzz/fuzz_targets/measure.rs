@@ -4,7 +4,7 @@
 
 use azulejo_c::analysis::*;
 use azulejo_c::differences::*;
-use azulejo_c::domain::azulejo_plane_set;
+use azulejo_c::domain::{azulejo_plane_set, azulejo_space_set};
 use azulejo_c::mesh::*;
 use azulejo_c::spectrum::*;
 use azulejo_c::statistics::*;
@@ -22,7 +22,33 @@ fuzz_target!(|bytes: &[u8]| {
     } else {
         surface(&mut input);
     }
+    space(&mut input);
 });
+
+/// A set of a cuboid, mostly one that is.
+fn space(input: &mut Input) {
+    let domain_min = [input.coordinate(), input.coordinate(), input.coordinate()].map(f64::from);
+    let domain_max: [f64; 3] = std::array::from_fn(|axis| domain_min[axis] + input.number());
+    let (boundary, radius) = (u32::from(input.one_in(2)), input.number());
+    let mut points = input.rows::<3>(40);
+    if !input.one_in(4) {
+        points.retain(|point| (0..3).all(|axis| (domain_min[axis]..domain_max[axis]).contains(&point[axis].into())));
+    }
+    let (struct_size, positions) = (size_of::<azulejo_space_set>() as u32, points.as_ptr().cast());
+    let set = azulejo_space_set { struct_size, boundary, positions, count: points.len(), domain_min, domain_max };
+    // SAFETY: the array has the given length.
+    let measure = |out| unsafe { azulejo_space_measure(context(), &set, radius, out) };
+    if let Some(report) = reported(azulejo_space_report_init, measure) {
+        assert_eq!(report.count, set.count as u64);
+        assert_eq!(report.conflicts > 0, report.smallest_distance < radius);
+        assert!(report.covering_radius >= 0.0 && report.rho >= 0.0);
+    }
+    // SAFETY: as above.
+    let covers = |out| unsafe { azulejo_space_coverage(context(), &set, radius, out) };
+    if let Some(coverage) = reported(azulejo_coverage_report_init, covers) {
+        assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
+    }
+}
 
 /// A set of the plane, mostly one that is.
 struct Set {

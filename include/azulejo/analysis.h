@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-/// The coverage of a domain or a surface by disks of a radius, from azulejo_plane_coverage and
-/// azulejo_mesh_coverage.
+/// The coverage of a domain or a surface by disks or balls of a radius, from
+/// azulejo_plane_coverage, azulejo_space_coverage and azulejo_mesh_coverage.
 typedef struct azulejo_coverage_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t reserved; ///< Always 0.
@@ -74,6 +74,22 @@ azulejo_status azulejo_plane_coverage(const azulejo_context *context,
                                       double radius,
                                       azulejo_coverage_report *out);
 
+/// Counts the gaps that points of a cuboid leave: groups of places that are farther than a radius
+/// from all points, by more than 6 float spacings, each within half of the radius of another place
+/// of its group, on a periodic domain around the torus. With no gap the set is maximal for the
+/// radius, and all maximal sets of this library have none.
+/// - radius: above 0.
+/// - out: the covering radius, too small by less than a billionth of it, and the number of gaps.
+///   Every gap deeper than a millionth of the radius is found, however small, and the deepest in
+///   any case. An empty set has an infinite radius and one gap.
+/// - O(count * log count) time, and some 1,000 cells per radius^3 of uncovered volume: they are
+///   found exactly, by subdivision of the cuboid.
+/// - Errors: AZULEJO_ERROR_TOO_LARGE also if more than about 25,000 * radius^3 is uncovered.
+azulejo_status azulejo_space_coverage(const azulejo_context *context,
+                                      const azulejo_space_set *set,
+                                      double radius,
+                                      azulejo_coverage_report *out);
+
 /// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
 /// farther than a radius from all samples, by more than 6 float spacings, each within half of the
 /// radius of another place of its group. With no gap the set is maximal for the radius, and all
@@ -123,6 +139,28 @@ typedef struct azulejo_plane_report {
     double beyond_4_sigma;
 } azulejo_plane_report;
 
+/// The result of azulejo_space_measure. Distances between points are infinite for fewer than two.
+typedef struct azulejo_space_report {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t reserved; ///< Always 0.
+    uint64_t count; ///< The number of points.
+    double smallest_distance; ///< The smallest distance between two points.
+    double mean_distance; ///< The mean distance from a point to its nearest neighbour.
+    /// The number of pairs of points that are nearer to each other than `radius`.
+    uint64_t conflicts;
+    /// cbrt(sqrt(2) * volume / count), the distance of neighbours in the densest packing,
+    /// face-centred cubic; infinite for no point.
+    double packed_distance;
+    /// The smallest distance in units of packed_distance: about 0.80 for maximal Poisson-disk sets,
+    /// at most 1 on a periodic domain.
+    double rho;
+    /// The covering radius, too small by less than a billionth of it; infinite for no point.
+    double covering_radius;
+    /// The covering radius in units of packed_distance: 0.71 for the densest packing, 0.63 for the
+    /// body-centred cubic lattice, which covers best; infinite for no point.
+    double relative_covering_radius;
+} azulejo_space_report;
+
 /// Writes zeros and the size.
 azulejo_status azulejo_plane_report_init(azulejo_plane_report *report, size_t struct_size);
 
@@ -131,6 +169,17 @@ azulejo_status azulejo_plane_report_init(azulejo_plane_report *report, size_t st
 azulejo_status azulejo_plane_measure(const azulejo_context *context,
                                      const azulejo_plane_set *set,
                                      azulejo_plane_report *out);
+
+/// Writes zeros and the size.
+azulejo_status azulejo_space_report_init(azulejo_space_report *report, size_t struct_size);
+
+/// Measures points of a cuboid: spacing, conflicts and covering radius. O(count * log count) time,
+/// and as many steps as there are conflicts.
+/// - radius: pairs of points that are nearer are counted as conflicts; from 0, which counts none.
+azulejo_status azulejo_space_measure(const azulejo_context *context,
+                                     const azulejo_space_set *set,
+                                     double radius,
+                                     azulejo_space_report *out);
 
 /// The histogram of the distances from points of the plane to their nearest neighbours. Histograms
 /// of several sets may be added. O(count) time.

@@ -131,8 +131,23 @@ typedef struct azulejo_plane_set {
     double domain_max[2];
 } azulejo_plane_set;
 
+/// Points of a cuboid and their domain: the input of the calls that measure them.
+typedef struct azulejo_space_set {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
+    const float *positions; ///< The points, x y z each. Default NULL: none.
+    size_t count; ///< The number of points; default 0.
+    double domain_min[3]; ///< The lower corner of the domain, x y z; default 0 0 0.
+    /// The upper corner of the domain, x y z, above the lower corner on all axes; default 1 1 1. No
+    /// side may be longer than 2^100 times another.
+    double domain_max[3];
+} azulejo_space_set;
+
 /// Writes the defaults: no points on the unit torus.
 azulejo_status azulejo_plane_set_init(azulejo_plane_set *set, size_t struct_size);
+
+/// Writes the defaults: no points on the unit torus.
+azulejo_status azulejo_space_set_init(azulejo_space_set *set, size_t struct_size);
 
 #define AZULEJO_ORDER_ANY 0 ///< In no particular order.
 

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 use crate::check;
 use crate::error::{Error, Result};
-use crate::index::Grid2;
+use crate::index::{Entry, Grid2};
 use crate::job::{Context, Progress, chunks_of};
 use crate::points::{Boundary, Domain};
 
@@ -79,7 +79,7 @@ pub fn radial_distribution(
     // Along the cells of the grid, so that points which follow each other meet the same others.
     let count = |chunk: usize| {
         let mut counts = vec![0.0; bins];
-        for &(id, point) in &grid.entries()[chunks.range(chunk)] {
+        for &Entry { id, point } in &grid.entries()[chunks.range(chunk)] {
             grid.for_each_within(point, reach * unit, |other, offset, squared| {
                 let bin = (squared.sqrt() * per_length) as usize;
                 if other != id && bin < bins {

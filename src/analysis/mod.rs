@@ -9,6 +9,7 @@ pub mod differential;
 pub mod distribution;
 pub mod facing;
 pub mod figures;
+pub mod space;
 pub mod spacing;
 pub mod spectrum;
 pub mod triangles;

@@ -3,7 +3,7 @@
 use crate::analysis::distribution::check_bins;
 use crate::check;
 use crate::error::Result;
-use crate::index::{Grid2, smallest_distance};
+use crate::index::{SortedGrid, smallest_distance};
 use crate::job::{Context, Job, Progress, chunks_of};
 use crate::points::Domain;
 
@@ -27,11 +27,15 @@ pub fn nearest_distances_2d(
     context.run(progress, |job| nearest_distances(job, domain, points))
 }
 
-/// [`nearest_distances_2d`] of a set that has been checked.
-pub(super) fn nearest_distances(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<f64>> {
-    let position = |point: &[f32; 2]| point.map(f64::from);
-    let cell_size = (domain.area() / points.len() as f64).sqrt();
-    let grid = Grid2::new(*domain, points.iter().map(position), cell_size);
+/// The distances of points of the plane or of a cuboid, which have been checked, to their nearest neighbours.
+pub(super) fn nearest_distances<const D: usize>(
+    job: &Job,
+    domain: &Domain<D>,
+    points: &[[f32; D]],
+) -> Result<Vec<f64>> {
+    let position = |point: &[f32; D]| point.map(f64::from);
+    let cell_size = domain.cell_side(points.len() as f64);
+    let grid = SortedGrid::new(*domain, points.iter().map(position), cell_size);
     let chunks = chunks_of(points.len(), TASK);
     job.flat_map(chunks.len(), |chunk| {
         let nearest = |i: usize| grid.nearest_squared(position(&points[i]), Some(i as u32)).sqrt();

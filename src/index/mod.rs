@@ -2,7 +2,7 @@
 //!
 //! | what is asked | of what | index |
 //! |---|---|---|
-//! | what is within a radius, and nearest | points of a plane or torus, all known at first | [`Grid2`] |
+//! | what is within a radius, and nearest | points of a domain or torus, all known at first | [`SortedGrid`], of the plane [`Grid2`] |
 //! | what is within a radius | points in space whose number grows | [`Grid3`] |
 //! | what is within a radius | points in space that move | [`MovingGrid3`] |
 //! | what is nearest, however far | points in space, clustered or not, all known at first | [`PointTree`] |
@@ -26,15 +26,17 @@
 
 mod binned;
 pub mod curve;
-mod grid2;
+
 mod grid3;
 mod moving_grid3;
 mod point_tree;
+mod sorted_grid;
 mod weighted;
 
 pub use binned::{Binned, Buckets};
-pub use grid2::Grid2;
+
 pub use grid3::{Grid3, smallest_distance};
 pub use moving_grid3::MovingGrid3;
 pub use point_tree::PointTree;
+pub use sorted_grid::{Entry, Grid2, SortedGrid};
 pub use weighted::Weights;

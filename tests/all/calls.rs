@@ -14,11 +14,13 @@ use std::thread::{self, ThreadId};
 
 use azulejo::analysis::bonds::bond_order;
 use azulejo::analysis::coverage::{
-    coverage_2d, covering_radius_2d, surface_coverage, surface_covering_radius, surface_uncovered_fraction,
+    coverage_2d, coverage_3d, covering_radius_2d, covering_radius_3d, surface_coverage, surface_covering_radius,
+    surface_uncovered_fraction,
 };
 use azulejo::analysis::differential::{plane_differences, surface_differences};
 use azulejo::analysis::distribution::radial_distribution;
 use azulejo::analysis::figures::figures_2d;
+use azulejo::analysis::space::figures_3d;
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
 use azulejo::analysis::spectrum::{periodogram, sparse_periodogram};
 use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
@@ -71,13 +73,15 @@ const SWAPPED: Domain = Domain { min: [1.0; 2], max: [0.0; 2], boundary: Boundar
 const OUTSIDE: [[f32; 2]; 2] = [[0.5; 2], [1.5, 0.5]];
 
 static POINTS: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| random_points(3000, 1));
+static IN_CUBE: LazyLock<Vec<[f32; 3]>> = LazyLock::new(|| {
+    let points = random_points(1500, 2);
+    std::iter::zip(&points, points.iter().rev()).map(|(&[x, y], &[z, _])| [x, y, z]).collect()
+});
 /// A set for the left half of the unit square.
 static PIECE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
     let options = maximal::Options::new(0.003).domain(Domain { max: [0.5, 1.0], ..UNIT });
     maximal::sample(&Context::new(1).unwrap(), &options, None).unwrap().positions
 });
-static IN_CUBE: LazyLock<Vec<[f32; 3]>> =
-    LazyLock::new(|| POINTS.iter().zip(POINTS.iter().rev()).map(|(&[x, y], &[z, _])| [x, y, z]).collect());
 static MESH: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::fine_torus(60, 30)));
 static SOLID: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::welded(meshes::fine_torus(60, 30))));
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
@@ -695,6 +699,27 @@ const ANALYSIS: &[Call] = &[
         reports: 10,
         run: |c, p| said(covering_radius_2d(c, &UNIT, &POINTS, p)),
         refused: &[("positions: ", |c, p| said(covering_radius_2d(c, &UNIT, &OUTSIDE, p)))],
+    },
+    Call {
+        name: "analysis::coverage::coverage_3d",
+        reports: 20,
+        run: |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, 0.05, p)),
+        refused: &[("radius: ", |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, -0.05, p)))],
+    },
+    Call {
+        name: "analysis::coverage::covering_radius_3d",
+        reports: 10,
+        run: |c, p| said(covering_radius_3d(c, &CUBE, &IN_CUBE, p)),
+        refused: &[("positions: ", |c, p| said(covering_radius_3d(c, &CUBE, &[[1.0; 3]], p)))],
+    },
+    Call {
+        name: "analysis::space::figures_3d",
+        reports: 20,
+        run: |c, p| said(figures_3d(c, &CUBE, &IN_CUBE, 0.1, p)),
+        refused: &[
+            ("positions: ", |c, p| said(figures_3d(c, &CUBE, &[[1.0; 3]], 0.1, p))),
+            ("radius: ", |c, p| said(figures_3d(c, &CUBE, &IN_CUBE, -0.1, p))),
+        ],
     },
     Call {
         name: "analysis::coverage::surface_covering_radius",

@@ -10,6 +10,7 @@ mod analysis_coverage;
 mod analysis_distribution;
 mod analysis_exact;
 mod analysis_reference;
+mod analysis_space;
 mod calls;
 mod common;
 mod dcr;

@@ -16,6 +16,14 @@ SIZE(azulejo_density_fn, 8);
 SIZE(azulejo_radius_fn, 8);
 SIZE(azulejo_mesh_density_fn, 8);
 
+SIZE(azulejo_space_set, 72);
+FIELD(azulejo_space_set, struct_size, 0);
+FIELD(azulejo_space_set, boundary, 4);
+FIELD(azulejo_space_set, positions, 8);
+FIELD(azulejo_space_set, count, 16);
+FIELD(azulejo_space_set, domain_min, 24);
+FIELD(azulejo_space_set, domain_max, 48);
+
 SIZE(azulejo_plane_set, 56);
 FIELD(azulejo_plane_set, struct_size, 0);
 FIELD(azulejo_plane_set, boundary, 4);
@@ -350,6 +358,18 @@ FIELD(azulejo_coverage_report, reserved, 4);
 FIELD(azulejo_coverage_report, covering_radius, 8);
 FIELD(azulejo_coverage_report, gaps, 16);
 
+SIZE(azulejo_space_report, 72);
+FIELD(azulejo_space_report, struct_size, 0);
+FIELD(azulejo_space_report, reserved, 4);
+FIELD(azulejo_space_report, count, 8);
+FIELD(azulejo_space_report, smallest_distance, 16);
+FIELD(azulejo_space_report, mean_distance, 24);
+FIELD(azulejo_space_report, conflicts, 32);
+FIELD(azulejo_space_report, packed_distance, 40);
+FIELD(azulejo_space_report, rho, 48);
+FIELD(azulejo_space_report, covering_radius, 56);
+FIELD(azulejo_space_report, relative_covering_radius, 64);
+
 SIZE(azulejo_plane_report, 128);
 FIELD(azulejo_plane_report, struct_size, 0);
 FIELD(azulejo_plane_report, reserved, 4);
@@ -528,6 +548,10 @@ static void signatures(void) {
                                      azulejo_coverage_report *) = azulejo_plane_coverage;
     azulejo_status (*plane_measure)(const azulejo_context *, const azulejo_plane_set *, azulejo_plane_report *) =
         azulejo_plane_measure;
+    azulejo_status (*space_coverage)(const azulejo_context *, const azulejo_space_set *, double,
+                                     azulejo_coverage_report *) = azulejo_space_coverage;
+    azulejo_status (*space_measure)(const azulejo_context *, const azulejo_space_set *, double, azulejo_space_report *) =
+        azulejo_space_measure;
     azulejo_status (*plane_nearest_histogram)(const azulejo_context *, const azulejo_plane_set *, double, size_t,
                                               uint64_t *) = azulejo_plane_nearest_histogram;
     azulejo_status (*plane_radial_distribution)(const azulejo_context *, const azulejo_plane_set *, double, size_t,
@@ -540,6 +564,7 @@ static void signatures(void) {
     CHECK(psp_points && psp_sample && psp_sample_classes && psp_classes_with_density && dcr_relax && dcr_relax_classes && dcr_correlation_of_power && dcr_relax_to_correlation && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
+    CHECK(space_coverage && space_measure);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);

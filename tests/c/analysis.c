@@ -62,6 +62,85 @@ static void planes(void) {
     CHECK(coverage.gaps == 1 && isinf(coverage.covering_radius));
 }
 
+/* The simple cubic lattice of unit spacing on a torus, in the middle of its cells. */
+#define SIDE 8
+#define CUBES (SIDE * SIDE * SIDE)
+
+static azulejo_space_set cubes(void) {
+    static float centres[CUBES][3];
+    azulejo_space_set set;
+    int i, k;
+    for (i = 0; i < CUBES; i++) {
+        centres[i][0] = (float)(i % SIDE) + 0.5f;
+        centres[i][1] = (float)(i / SIDE % SIDE) + 0.5f;
+        centres[i][2] = (float)(i / SIDE / SIDE) + 0.5f;
+    }
+    ACCEPTED(azulejo_space_set_init(&set, sizeof set));
+    for (k = 0; k < 3; k++) set.domain_max[k] = SIDE;
+    set.positions = *centres;
+    set.count = CUBES;
+    return set;
+}
+
+static void spaces(void) {
+    const azulejo_space_set lattice_set = cubes();
+    azulejo_space_set set = lattice_set;
+    azulejo_space_report report = space_report();
+    azulejo_coverage_report coverage = coverage_report();
+    ACCEPTED(azulejo_space_measure(context, &set, 1.0001, &report));
+    CHECK(report.count == CUBES && report.conflicts == 3 * CUBES && report.reserved == 0);
+    CHECK(report.smallest_distance == 1 && near(report.mean_distance, 1, 1e-12));
+    CHECK(near(report.packed_distance, cbrt(sqrt(2.0)), 1e-12) && near(report.rho, 1 / cbrt(sqrt(2.0)), 1e-12));
+    CHECK(near(report.covering_radius, sqrt(0.75), 1e-8));
+    CHECK(near(report.relative_covering_radius, sqrt(0.75) / cbrt(sqrt(2.0)), 1e-8));
+    ACCEPTED(azulejo_space_measure(context, &set, 1, &report));
+    CHECK(report.conflicts == 0 && report.struct_size == sizeof report);
+    ACCEPTED(azulejo_space_coverage(context, &set, 0.87, &coverage));
+    CHECK(coverage.gaps == 0 && coverage.covering_radius == report.covering_radius && coverage.reserved == 0);
+    /* A gap in the middle of eight points. */
+    ACCEPTED(azulejo_space_coverage(context, &set, 0.86, &coverage));
+    CHECK(coverage.gaps == CUBES);
+    set.boundary = AZULEJO_BOUNDARY_BOUNDED;
+    ACCEPTED(azulejo_space_coverage(context, &set, 0.86, &coverage));
+    CHECK(coverage.gaps == (SIDE + 1) * (SIDE + 1) * (SIDE + 1));
+    set.count = 0;
+    ACCEPTED(azulejo_space_measure(context, &set, 1, &report));
+    CHECK(report.count == 0 && isinf(report.smallest_distance) && isinf(report.rho) && isinf(report.covering_radius));
+    ACCEPTED(azulejo_space_coverage(context, &set, 0.5, &coverage));
+    CHECK(coverage.gaps == 1 && isinf(coverage.covering_radius));
+
+    set = lattice_set;
+    coverage.gaps = report.count = 77;
+    REFUSED(INVALID, "context", azulejo_space_measure(NULL, &set, 1, &report));
+    REFUSED(INVALID, "context", azulejo_space_coverage(NULL, &set, 1, &coverage));
+    REFUSED(INVALID, "set: is NULL", azulejo_space_measure(context, NULL, 1, &report));
+    REFUSED(INVALID, "set: is NULL", azulejo_space_coverage(context, NULL, 1, &coverage));
+    REFUSED(INVALID, "out", azulejo_space_measure(context, &set, 1, NULL));
+    REFUSED(INVALID, "out", azulejo_space_coverage(context, &set, 1, NULL));
+    REFUSED(INVALID, "radius", azulejo_space_measure(context, &set, -1, &report));
+    REFUSED(INVALID, "radius", azulejo_space_measure(context, &set, NAN, &report));
+    REFUSED(INVALID, "radius", azulejo_space_coverage(context, &set, 0, &coverage));
+    set.struct_size = 71;
+    REFUSED(INVALID, "azulejo_space_set_init", azulejo_space_measure(context, &set, 1, &report));
+    set = lattice_set;
+    set.boundary = 2;
+    REFUSED(INVALID, "boundary", azulejo_space_measure(context, &set, 1, &report));
+    set = lattice_set;
+    set.domain_max[2] = 0;
+    REFUSED(INVALID, "domain_max: [2]", azulejo_space_coverage(context, &set, 1, &coverage));
+    set.domain_max[2] = 7;
+    REFUSED(INVALID, "positions: point 448", azulejo_space_coverage(context, &set, 1, &coverage));
+    set = lattice_set;
+    set.count = SIZE_MAX / 3;
+    REFUSED(TOO_LARGE, "count", azulejo_space_measure(context, &set, 1, &report));
+    set.count = 1;
+    set.positions = NULL;
+    REFUSED(INVALID, "positions", azulejo_space_measure(context, &set, 1, &report));
+    set.positions = lattice_set.positions;
+    REFUSED(TOO_LARGE, "radius", azulejo_space_coverage(context, &set, 1e-3, &coverage));
+    CHECK(coverage.gaps == 77 && report.count == 77);
+}
+
 static void distributions(void) {
     double density[40];
     uint64_t histogram[41], sum = 0;
@@ -349,6 +428,7 @@ int main(void) {
     cube = make_cube();
     make_sets();
     planes();
+    spaces();
     distributions();
     spectra();
     surfaces();

@@ -112,6 +112,12 @@ static inline azulejo_plane_report plane_report(void) {
     return report;
 }
 
+static inline azulejo_space_report space_report(void) {
+    azulejo_space_report report;
+    ACCEPTED(azulejo_space_report_init(&report, sizeof report));
+    return report;
+}
+
 static inline azulejo_coverage_report coverage_report(void) {
     azulejo_coverage_report report;
     ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));

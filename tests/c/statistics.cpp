@@ -54,6 +54,26 @@ void planes() {
     CHECK(refused("bins", [&] { azulejo::plane_radial_distribution(context, set, 4, 0); }));
 }
 
+void spaces() {
+    const azulejo::Context context(2);
+    azulejo::VolumeOptions options;
+    options.radius = 0.1;
+    options.domain_max[0] = 1.5;
+    const azulejo::Points points = azulejo::volume_sample(context, options);
+    const azulejo::SpaceSet set{points, options};
+    const auto report = azulejo::space_measure(context, set, 0.1);
+    CHECK(report.count == points.size() && report.smallest_distance >= 0.1 && report.conflicts == 0);
+    CHECK(report.covering_radius <= 0.1 + 1e-6 && report.rho > 0.7 && report.rho < 0.85);
+    CHECK(azulejo::space_measure(context, set, 0.11).conflicts > 10 && azulejo::space_measure(context, set).conflicts == 0);
+    const auto open = azulejo::space_coverage(context, set, 0.09);
+    CHECK(open.gaps > 10 && open.covering_radius == report.covering_radius);
+    CHECK(azulejo::space_coverage(context, set, 0.1).gaps == 0);
+    const azulejo::Cuboid cuboid({0, 0, 0}, {1.5, 1, 1}, AZULEJO_BOUNDARY_BOUNDED);
+    CHECK(azulejo::space_coverage(context, {points, cuboid}, 0.1).covering_radius > report.covering_radius);
+    const std::vector<float> odd(7);
+    CHECK(refused("positions: 7", [&] { azulejo::space_measure(context, {odd}); }));
+}
+
 void spectra() {
     const azulejo::Context context(2);
     std::vector<azulejo::Spectrum> spectra;
@@ -100,6 +120,7 @@ void surfaces() {
 
 int main() {
     planes();
+    spaces();
     spectra();
     surfaces();
     return finish();

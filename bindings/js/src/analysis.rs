@@ -1,11 +1,13 @@
 //! Measurements of sets.
 
 use azulejo::analysis::coverage::{
-    coverage_2d, covering_radius_2d, surface_coverage, surface_covering_radius, surface_uncovered_fraction,
+    coverage_2d, coverage_3d, covering_radius_2d, surface_coverage, surface_covering_radius, surface_uncovered_fraction,
 };
 use azulejo::analysis::distribution::radial_distribution;
+use azulejo::analysis::space::figures_3d;
 use azulejo::analysis::spacing::{smallest_distance_2d, smallest_distance_3d};
 use azulejo::analysis::spectrum::periodogram;
+use azulejo::{Boundary, Domain};
 
 use crate::answer::{Answer, call};
 use crate::domain;
@@ -32,6 +34,45 @@ pub unsafe extern "C" fn azulejo_plane_measure(
         let domain = domain(min_x, min_y, max_x, max_y, bounded);
         let smallest = smallest_distance_2d(context, &domain, points, None)?;
         Ok(Answer::default().and(vec![smallest, covering_radius_2d(context, &domain, points, None)?]))
+    })
+}
+
+/// The corners of a cuboid, from the caller's numbers.
+#[repr(C)]
+pub struct Cuboid {
+    min: [f64; 3],
+    max: [f64; 3],
+    bounded: f64,
+}
+
+/// The smallest distance, the mean of nearest neighbours, rho and the covering radius of a set of a cuboid; the number of pairs
+/// nearer than a radius, and of the gaps of that radius, which are none for 0.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_measure(
+    cuboid: &Cuboid,
+    radius: f64,
+    points: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    let &Cuboid { min, max, bounded } = cuboid;
+    call(|context| {
+        let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
+        let domain = Domain { min, max, boundary };
+        let figures = figures_3d(context, &domain, points, radius, None)?;
+        let gaps = if radius == 0.0 { 0 } else { coverage_3d(context, &domain, points, radius, None)?.gaps };
+        Ok(Answer::default().and(vec![
+            figures.smallest,
+            figures.mean,
+            figures.rho(),
+            figures.covering_radius,
+            figures.conflicts as f64,
+            gaps as f64,
+        ]))
     })
 }
 

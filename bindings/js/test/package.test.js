@@ -72,6 +72,19 @@ test("sets of the plane are conflict-free, maximal and the same each time", () =
     assert.notDeepEqual(seeds[0], seeds[2]);
 });
 
+test("sets of a cuboid are measured", () => {
+    for (const [boundary, wrap] of [["periodic", wrapped], ["bounded", (d) => d]]) {
+        const { positions } = azulejo.volumeSample({ radius: 0.2, boundary });
+        const found = azulejo.spaceMeasure(positions, { boundary, radius: 0.2 });
+        assert.ok(Math.abs(found.smallestDistance - smallest(positions, 3, wrap)) < 1e-12);
+        assert.ok(found.coveringRadius <= 0.2 + 1e-6 && found.meanDistance >= found.smallestDistance);
+        assert.deepEqual([found.conflicts, found.gaps], [0, 0]);
+        assert.ok(azulejo.spaceMeasure(positions, { boundary, radius: 0.25 }).conflicts > 0);
+        assert.ok(azulejo.spaceMeasure(positions, { boundary, radius: 0.16 }).gaps > 0);
+        assert.throws(() => azulejo.spaceMeasure(positions, { boundary, radius: -1 }), /radius/);
+    }
+});
+
 test("counts are exact, progressive sets have ranks that their prefixes keep", () => {
     const { positions, ranks, radius } = azulejo.kdrtSample({ count: 777, order: "progressive" });
     assert.equal(positions.length, 2 * 777);

@@ -3,24 +3,29 @@
 use azulejo_core::analysis::coverage::{self, Coverage};
 use azulejo_core::analysis::distribution::radial_distribution;
 use azulejo_core::analysis::figures::{Figures, figures_2d};
+use azulejo_core::analysis::space::{SpaceFigures, figures_3d};
 use azulejo_core::analysis::spacing::{self, nearest_distances_2d, nearest_histogram_2d, spacing_2d};
 use azulejo_core::{Context, Domain, Error, Progress};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::argument::{callable, maybe_pair, natural, real, whole};
+use crate::argument::{callable, maybe_pair, maybe_triple, natural, real, whole};
 use crate::array::line;
 use crate::frame::{Frame, Positions, Rows};
 use crate::mesh::Mesh;
+use crate::points::Place;
 use crate::report::report;
 use crate::taken;
 use crate::watch::Watch;
 
-/// Points of the plane in their domain.
-pub(crate) struct PlaneSet<'py> {
-    positions: Rows<'py, 2>,
-    pub(crate) frame: Frame,
+/// Points in their domain.
+pub(crate) struct MeasuredSet<'py, const N: usize> {
+    positions: Rows<'py, N>,
+    pub(crate) frame: Frame<N>,
 }
+
+/// Points of the plane in their domain.
+pub(crate) type PlaneSet<'py> = MeasuredSet<'py, 2>;
 
 impl<'py> PlaneSet<'py> {
     pub(crate) fn read(
@@ -30,19 +35,35 @@ impl<'py> PlaneSet<'py> {
         boundary: Option<&str>,
     ) -> PyResult<Self> {
         let positions = Positions::read("positions", positions)?;
-        let frame = Frame::around(&positions, min, max, boundary)?;
+        let frame = Frame::around(&positions, Place::plane, min, max, boundary)?;
         Ok(Self { positions: positions.around(frame.origin)?, frame })
     }
+}
 
+impl<'py> MeasuredSet<'py, 3> {
+    /// Points of a cuboid.
+    fn in_space(
+        positions: &Bound<'py, PyAny>,
+        min: Option<[f64; 3]>,
+        max: Option<[f64; 3]>,
+        boundary: Option<&str>,
+    ) -> PyResult<Self> {
+        let positions = Positions::read("positions", positions)?;
+        let frame = Frame::around(&positions, Place::cuboid, min, max, boundary)?;
+        Ok(Self { positions: positions.around(frame.origin)?, frame })
+    }
+}
+
+impl<const N: usize> MeasuredSet<'_, N> {
     /// The points, relative to the origin of the frame.
-    pub(crate) fn points(&self) -> PyResult<&[[f32; 2]]> {
+    pub(crate) fn points(&self) -> PyResult<&[[f32; N]]> {
         self.positions.get()
     }
 
     pub(crate) fn run<T: Send>(
         &self,
         watch: Watch,
-        call: impl FnOnce(&Context, &Domain, &[[f32; 2]], Option<&Progress>) -> Result<T, Error> + Send,
+        call: impl FnOnce(&Context, &Domain<N>, &[[f32; N]], Option<&Progress>) -> Result<T, Error> + Send,
     ) -> PyResult<T> {
         let (points, domain) = (self.points()?, &self.frame.domain);
         watch.run(|context, progress| call(context, domain, points, progress))
@@ -150,6 +171,100 @@ pub(crate) fn plane_coverage(
         coverage::coverage_2d(context, domain, points, radius, progress)
     })?;
     Ok(coverage.into())
+}
+
+/// Counts the gaps that points of a cuboid leave, beyond 6 float spacings at its largest coordinate, and finds the covering
+/// radius. Uncovered places that are within half of the radius of each other are of one gap.
+///
+/// positions: the points, float32, shape (n, 3), in domain_min <= x < domain_max. radius: above 0, in the units of the domain.
+/// domain_min, domain_max: the corners of the domain, three numbers each.
+/// boundary: "periodic" (distances wrap around) or "bounded".
+///     Of positions that are Points the default is their own domain; of arrays it is the periodic unit cube.
+/// threads, progress: as in plane_smallest_distance.
+///
+/// Returns a CoverageReport.
+#[pyfunction]
+#[pyo3(signature = (
+    positions, radius, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
+))]
+pub(crate) fn space_coverage(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<CoverageReport> {
+    let set = MeasuredSet::in_space(positions, domain_min, domain_max, boundary)?;
+    let coverage = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        coverage::coverage_3d(context, domain, points, radius, progress)
+    })?;
+    Ok(coverage.into())
+}
+
+report! {
+    /// Spacing, conflicts and covering radius of points of a cuboid.
+    SpaceReport {
+        /// The number of points.
+        count: usize,
+        /// The smallest distance of two points.
+        smallest_distance: f64,
+        /// The mean distance of a point to its nearest neighbour.
+        mean_distance: f64,
+        /// The number of pairs of points that are nearer to each other than the radius.
+        conflicts: u64,
+        /// The distance of neighbours if as many points stood in the densest packing.
+        packed_distance: f64,
+        /// The smallest distance in units of packed_distance.
+        rho: f64,
+        /// The distance of the place that is farthest from all points.
+        covering_radius: f64,
+        /// The covering radius in units of packed_distance.
+        relative_covering_radius: f64,
+    }
+}
+
+impl From<SpaceFigures> for SpaceReport {
+    fn from(figures: SpaceFigures) -> Self {
+        Self {
+            count: figures.count,
+            smallest_distance: figures.smallest,
+            mean_distance: figures.mean,
+            conflicts: figures.conflicts,
+            packed_distance: figures.packed,
+            rho: figures.rho(),
+            covering_radius: figures.covering_radius,
+            relative_covering_radius: figures.relative_covering_radius(),
+        }
+    }
+}
+
+/// Measures points of a cuboid: spacing, conflicts and covering radius.
+///
+/// radius: pairs of points that are nearer are conflicts; 0 counts none. The others are those of space_coverage.
+///
+/// Returns a SpaceReport.
+#[pyfunction]
+#[pyo3(signature = (
+    positions, radius=0.0, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
+))]
+pub(crate) fn space_measure(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::radius)] radius: f64,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<SpaceReport> {
+    let set = MeasuredSet::in_space(positions, domain_min, domain_max, boundary)?;
+    let figures = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        figures_3d(context, domain, points, radius, progress)
+    })?;
+    Ok(figures.into())
 }
 
 /// Counts the gaps that samples leave on a mesh, by straight distance and beyond 6 float spacings at its largest

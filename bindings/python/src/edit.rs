@@ -12,7 +12,7 @@ use crate::error::invalid;
 use crate::frame::{Frame, Positions, Rows};
 use crate::growing::locked;
 use crate::plane::Request;
-use crate::points::Points;
+use crate::points::{Place, Points};
 use crate::watch::{Watch, unlocked};
 
 /// A set of the plane that is edited. One call at a time may change it; another one, from another thread or from
@@ -104,7 +104,7 @@ impl Plane {
     ) -> PyResult<Self> {
         let positions = positions.map(|positions| Positions::read("positions", positions)).transpose()?;
         let frame = match &positions {
-            Some(positions) => Frame::around(positions, domain_min, domain_max, boundary)?,
+            Some(positions) => Frame::around(positions, Place::plane, domain_min, domain_max, boundary)?,
             None => Frame::new(domain_min, domain_max, boundary.unwrap_or("periodic"))?,
         };
         let given = (given_positions, given_clearances);

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::argument::choice;
 use crate::array::{Array, table};
-use crate::points::Points;
+use crate::points::{Place, Points};
 
 /// The times that coordinates may exceed the extent before floats displace doubles by more than a millionth of it.
 const FAR_OF_DOUBLES: f64 = 16.0;
@@ -182,16 +182,17 @@ impl<const N: usize> Frame<N> {
     }
 }
 
-impl Frame {
-    /// The domain of positions that there are: by default that of Points, if they have one.
+impl<const N: usize> Frame<N> {
+    /// The domain of positions that there are, `own` by its place: by default that of Points, if they have one.
     pub(crate) fn around(
         positions: &Positions,
-        min: Option<[f64; 2]>,
-        max: Option<[f64; 2]>,
+        own: fn(Place) -> Option<Self>,
+        min: Option<[f64; N]>,
+        max: Option<[f64; N]>,
         boundary: Option<&str>,
     ) -> PyResult<Self> {
         let own = match positions {
-            Positions::Points(points) => points.get().place.plane(),
+            Positions::Points(points) => own(points.get().place),
             _ => None,
         };
         let usual = own.map_or(Domain::unit(Boundary::Periodic), |frame| frame.whole);

@@ -32,8 +32,8 @@ mod watch;
 /// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_classes_with_density, psp_adaptive_sample,
 /// psp_adaptive_with_density, Psp. Space: volume_sample, volume_sample_inside. Relaxation: dcr_relax, dcr_relax_classes,
 /// dcr_relax_density, dcr_scatter, dcr_relax_to_correlation, dcr_correlation_of_power, dcr_surface_relax, dcr_remesh.
-/// Clouds: thin. Pixels: mask_create, mask_dither. Analysis:
-/// plane_measure, plane_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
+/// Clouds: thin. Pixels: mask_create, mask_dither. Analysis: plane_measure, plane_coverage, space_measure,
+/// space_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
 ///
 /// A radius is the smallest distance of two samples, centre to centre. The same arguments and seed give the same bytes,
 /// for any number of threads and on every machine.
@@ -51,9 +51,9 @@ mod azulejo {
     use crate::adaptive::{psp_adaptive_sample, psp_adaptive_with_density};
     #[pymodule_export]
     use crate::analysis::{
-        CoverageReport, PlaneReport, mesh_coverage, mesh_uncovered_fraction, plane_coverage, plane_covering_radius,
-        plane_measure, plane_nearest_histogram, plane_radial_distribution, plane_smallest_distance,
-        space_smallest_distance,
+        CoverageReport, PlaneReport, SpaceReport, mesh_coverage, mesh_uncovered_fraction, plane_coverage,
+        plane_covering_radius, plane_measure, plane_nearest_histogram, plane_radial_distribution,
+        plane_smallest_distance, space_coverage, space_measure, space_smallest_distance,
     };
     #[pymodule_export]
     use crate::classes::classes_radii;

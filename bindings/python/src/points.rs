@@ -25,6 +25,14 @@ impl Place {
             _ => None,
         }
     }
+
+    /// The domain of samples of a cuboid.
+    pub(crate) fn cuboid(self) -> Option<Frame<3>> {
+        match self {
+            Self::Cuboid(frame) => Some(frame),
+            _ => None,
+        }
+    }
 }
 
 /// Samples. len() is their number n; numpy.asarray() gives their positions. What does not apply is None.

@@ -187,6 +187,7 @@ def test_reports_are_what_their_text_says(all_sets):
     reports = [points.report for points in all_sets.values() if points.report is not None]
     xy = azulejo.kdrt_sample(0.05)
     reports += [azulejo.plane_measure(xy), azulejo.plane_coverage(xy, 0.05)]
+    reports.append(azulejo.space_measure(azulejo.volume_sample(0.3)))
     reports.append(azulejo.Spectrum(xy, 16).measure(0.1, 0.5, 0.1))
     reports.append(azulejo.dcr_remesh(mesh(), all_sets["mesh"].triangles, all_sets["mesh"].barycentrics)[1])
     reports.append(azulejo.volume_sample_inside(BOX, 0.2).report)

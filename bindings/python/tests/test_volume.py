@@ -137,3 +137,24 @@ def test_refusals_name_the_argument():
 def test_progress_cancels():
     with pytest.raises(azulejo.Cancelled):
         azulejo.volume_sample(0.01, progress=lambda done: done < 0.1)
+
+
+def test_measures_agree_with_numpy():
+    points = azulejo.volume_sample(0.2, domain_min=(-1, 0, 5), domain_max=(0, 1, 6.5), seed=3)
+    xyz = points.positions.astype(float)
+    offsets = np.abs(xyz[:, None] - xyz[None])
+    offsets = np.minimum(offsets, np.array([1, 1, 1.5]) - offsets)
+    distances = np.sqrt((offsets**2).sum(axis=2))[np.triu_indices(len(xyz), 1)]
+    report = azulejo.space_measure(points, 0.25)
+    assert report.count == len(xyz) and report.smallest_distance == pytest.approx(distances.min(), rel=1e-12)
+    assert report.conflicts == (distances < 0.25).sum() > 0
+    assert report.packed_distance == pytest.approx((2**0.5 * 1.5 / len(xyz)) ** (1 / 3))
+    assert report.rho == report.smallest_distance / report.packed_distance
+    assert report.relative_covering_radius == report.covering_radius / report.packed_distance
+    covered = azulejo.space_coverage(points, 0.2)
+    assert covered.gaps == 0 and covered.covering_radius == report.covering_radius <= 0.2 + 1e-5
+    assert azulejo.space_coverage(points, 0.17).gaps > 0
+    domain = dict(domain_min=(-1, 0, 5), domain_max=(0, 1, 6.5))
+    assert azulejo.space_measure(points.positions, 0.25, **domain) == report
+    bounded = azulejo.space_coverage(points.positions, 0.2, boundary="bounded", **domain)
+    assert bounded.covering_radius > 0.2 and bounded.gaps > 0

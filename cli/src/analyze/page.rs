@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::Set;
 use super::figures::{object, table};
 use super::plane::{self, NEAREST_BINS, NEAREST_REACH};
-use super::surface;
+use super::{space, surface};
 use crate::formats::set::{PlaneSet, SampleSet};
 use crate::text::{grouped, rounded};
 
@@ -21,18 +21,37 @@ fn title<Points>(sets: &[Set<Points>]) -> String {
     }
 }
 
-fn boundary(domain: &Domain) -> &'static str {
+fn boundary<const D: usize>(domain: &Domain<D>) -> &'static str {
     match domain.boundary {
         Boundary::Periodic => "periodic",
         Boundary::Bounded => "bounded",
     }
 }
 
+/// A domain by the ranges of its axes.
+fn ranges<const D: usize>(domain: &Domain<D>) -> String {
+    let range = |axis: usize| format!("{} to {}", rounded(domain.min[axis], 6), rounded(domain.max[axis], 6));
+    let axes = (0..D).map(|axis| format!("{} {}, ", ["x", "y", "z"][axis], range(axis)));
+    axes.collect::<String>() + boundary(domain)
+}
+
 pub fn plane_table(domain: &Domain, sets: &[Set<PlaneSet>], measured: &plane::Measured) -> String {
-    let [x, y] = [0, 1].map(|axis| format!("{} to {}", rounded(domain.min[axis], 6), rounded(domain.max[axis], 6)));
-    let rows = table(&measured.rows, sets.len());
-    let classes = measured.classes.text(sets.len());
-    format!("{}: x {x}, y {y}, {}\n\n{rows}{classes}", title(sets), boundary(domain))
+    let (rows, classes) = (table(&measured.rows, sets.len()), measured.classes.text(sets.len()));
+    format!("{}: {}\n\n{rows}{classes}", title(sets), ranges(domain))
+}
+
+pub fn space_table(domain: &Domain<3>, sets: &[Set<SampleSet>], measured: &space::Measured) -> String {
+    let (rows, classes) = (table(&measured.rows, sets.len()), measured.classes.text(sets.len()));
+    format!("{}: {}\n\n{rows}{classes}", title(sets), ranges(domain))
+}
+
+pub fn space_json(domain: &Domain<3>, sets: &[Set<SampleSet>], measured: &space::Measured) -> String {
+    printed(&json!({
+        "files": files(sets),
+        "domain": { "min": domain.min, "max": domain.max, "boundary": boundary(domain) },
+        "figures": object(&measured.rows),
+        "classes": measured.classes.json(),
+    }))
 }
 
 pub fn surface_table(path: &Path, mesh: &Mesh, sets: &[Set<SampleSet>], measured: &surface::Measured) -> String {

@@ -1,13 +1,14 @@
-//! Statistics of sets of the plane: spacing, order, triangles and distances.
+//! Statistics of sets of the plane: spacing, order, triangles and distances; and of cuboids.
 
 use azulejo_core::Domain;
 use azulejo_core::analysis::distribution::radial_distribution;
 use azulejo_core::analysis::figures::{Figures, figures_2d};
+use azulejo_core::analysis::space::{SpaceFigures, figures_3d};
 use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d, spacing_2d};
 
 use crate::boundary::{self, check_pointer};
 use crate::context::azulejo_context;
-use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::domain::{PlaneSet, SpaceSet, azulejo_plane_set, azulejo_space_set};
 use crate::growing::{self, Growing, Output, growing};
 use crate::status::{Failure, azulejo_status};
 
@@ -124,6 +125,92 @@ fn report(count: u64, domain: &Domain, figures: &Figures) -> azulejo_plane_repor
         beyond_4_sigma: triangles.beyond_4_sigma,
         ..azulejo_plane_report::DEFAULT
     }
+}
+
+/// The result of azulejo_space_measure. Distances between points are infinite for fewer than two.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_space_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// The number of points.
+    pub count: u64,
+    /// The smallest distance between two points.
+    pub smallest_distance: f64,
+    /// The mean distance from a point to its nearest neighbour.
+    pub mean_distance: f64,
+    /// The number of pairs of points that are nearer to each other than `radius`.
+    pub conflicts: u64,
+    /// cbrt(sqrt(2) * volume / count), the distance of neighbours in the densest packing,
+    /// face-centred cubic; infinite for no point.
+    pub packed_distance: f64,
+    /// The smallest distance in units of packed_distance: about 0.80 for maximal Poisson-disk sets,
+    /// at most 1 on a periodic domain.
+    pub rho: f64,
+    /// The covering radius, too small by less than a billionth of it; infinite for no point.
+    pub covering_radius: f64,
+    /// The covering radius in units of packed_distance: 0.71 for the densest packing, 0.63 for the
+    /// body-centred cubic lattice, which covers best; infinite for no point.
+    pub relative_covering_radius: f64,
+}
+
+growing!(azulejo_space_report requires count {
+    reserved: 0,
+    count: 0,
+    smallest_distance: 0.0,
+    mean_distance: 0.0,
+    conflicts: 0,
+    packed_distance: 0.0,
+    rho: 0.0,
+    covering_radius: 0.0,
+    relative_covering_radius: 0.0,
+});
+
+impl From<SpaceFigures> for azulejo_space_report {
+    fn from(figures: SpaceFigures) -> Self {
+        Self {
+            count: figures.count as u64,
+            smallest_distance: figures.smallest,
+            mean_distance: figures.mean,
+            conflicts: figures.conflicts,
+            packed_distance: figures.packed,
+            rho: figures.rho(),
+            covering_radius: figures.covering_radius,
+            relative_covering_radius: figures.relative_covering_radius(),
+            ..Self::DEFAULT
+        }
+    }
+}
+
+/// Writes zeros and the size.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_report_init(
+    report: *mut azulejo_space_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
+/// Measures points of a cuboid: spacing, conflicts and covering radius. O(count * log count) time,
+/// and as many steps as there are conflicts.
+///
+/// radius: pairs of points that are nearer are counted as conflicts; from 0, which counts none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_measure(
+    context: *const azulejo_context,
+    set: *const azulejo_space_set,
+    radius: f64,
+    out: *mut azulejo_space_report,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let (out, set) = unsafe { (Output::required("out", out)?, SpaceSet::read(context, set)?) };
+        out.write(set.run(|context, domain, points, progress| figures_3d(context, domain, points, radius, progress))?);
+        Ok(())
+    })
 }
 
 /// The histogram of the distances from points of the plane to their nearest neighbours. Histograms

@@ -536,6 +536,15 @@ fn points() {
         report.struct_size = std::mem::offset_of!(azulejo_plane_report, smallest_distance) as u32;
         assert_eq!(azulejo_plane_measure(context.get(), &set, &mut report), AZULEJO_OK);
         assert_eq!((report.count, report.smallest_distance), (3, 0.0));
+        let mut set = defaults(azulejo_space_set_init);
+        (set.positions, set.count) = (xy.as_ptr(), 2);
+        let mut report = defaults(azulejo_space_report_init);
+        report.struct_size = std::mem::offset_of!(azulejo_space_report, rho) as u32;
+        assert_eq!(azulejo_space_measure(context.get(), &set, 2.0, &mut report), AZULEJO_OK);
+        assert_eq!((report.count, report.conflicts, report.rho), (2, 1, 0.0));
+        let mut coverage = defaults(azulejo_coverage_report_init);
+        assert_eq!(azulejo_space_coverage(context.get(), &set, 0.5, &mut coverage), AZULEJO_OK);
+        assert!(coverage.gaps > 0 && coverage.covering_radius > 0.5);
         assert!(value(|out| azulejo_space_smallest_distance(context.get(), xy.as_ptr(), 2, out)) > 0.0);
         let mesh = mesh();
         let uncovered =

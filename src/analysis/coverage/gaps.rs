@@ -13,7 +13,7 @@ use glam::DVec2;
 
 use crate::error::Result;
 use crate::geometry::{Delaunay, Dual, Frame};
-use crate::index::Grid2;
+use crate::index::{Entry, Grid2};
 use crate::job::{Job, chunks, chunks_of};
 use crate::points::Domain;
 
@@ -55,7 +55,7 @@ fn link_same(job: &Job, frame: &Frame, vertices: &[[f64; 2]], gaps: &mut Disjoin
     let chunks = chunks_of(vertices.len(), VERTICES);
     let same = |chunk: usize| {
         let mut pairs = Vec::new();
-        for &(vertex, place) in &grid.entries()[chunks.range(chunk)] {
+        for &Entry { id: vertex, point: place } in &grid.entries()[chunks.range(chunk)] {
             grid.for_each_within(place, SAME, |other, _, _| pairs.extend((other < vertex).then_some([vertex, other])));
         }
         pairs

@@ -1,14 +1,17 @@
 //! Coverage: how far the domain or the surface is from the samples.
 
 mod gaps;
+mod groups;
+mod space;
 mod surface;
+mod vertices;
 
 use glam::DVec3;
 
 use crate::analysis::AreaSampler;
 use crate::check;
 use crate::error::{Error, Result};
-use crate::index::{Grid2, Grid3, PointTree};
+use crate::index::{Grid3, PointTree, SortedGrid};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::math::{distance_squared, hypot};
 use crate::mesh::Mesh;
@@ -16,6 +19,7 @@ use crate::plane::float_spacing;
 use crate::points::{Boundary, Domain};
 use crate::psp::TOLERANCE;
 
+pub use space::{coverage_3d, covering_radius_3d};
 pub use surface::{surface_coverage, surface_covering_radius};
 
 /// The relative precision of a covering radius.
@@ -89,18 +93,15 @@ pub fn covering_radius_2d(
     context.run(progress, |job| covering_radius(job, domain, points))
 }
 
-/// [`covering_radius_2d`] of a set that has been checked.
-pub(super) fn covering_radius(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<f64> {
+/// [`covering_radius_2d`] or [`covering_radius_3d`] of a set that has been checked.
+pub(super) fn covering_radius<const D: usize>(job: &Job, domain: &Domain<D>, points: &[[f32; D]]) -> Result<f64> {
     if points.is_empty() {
         return Ok(f64::INFINITY);
     }
     let nearest = Nearest::new(&job.part(0.0, 0.2), domain, points)?;
     let cells = SearchCells::about(domain, points.len());
     let tasks = chunks_of(cells.len(), TASK);
-    let distance = |cell: usize| {
-        let [x, y] = nearest.offset(cells.get(cell).centre);
-        hypot(x, y)
-    };
+    let distance = |cell: usize| length(nearest.offset(cells.get(cell).centre));
     let largest = |distances: Vec<f64>| distances.into_iter().fold(0.0, f64::max);
     let known =
         job.part(0.2, 0.3).map(tasks.len(), |task| tasks.range(task).map(distance).fold(0.0, f64::max)).map(largest)?;
@@ -108,79 +109,98 @@ pub(super) fn covering_radius(job: &Job, domain: &Domain, points: &[[f32; 2]]) -
     job.part(0.3, 1.0).map(tasks.len(), of_task).map(largest)
 }
 
-/// A rectangle of the domain.
+/// The length of a vector.
+fn length<const D: usize>(vector: [f64; D]) -> f64 {
+    vector.into_iter().reduce(hypot).unwrap_or(0.0)
+}
+
+/// A rectangle or cuboid of the domain.
 #[derive(Clone, Copy)]
-struct SearchCell {
-    centre: [f64; 2],
-    half: [f64; 2],
+struct SearchCell<const D: usize> {
+    centre: [f64; D],
+    half: [f64; D],
 }
 
 /// The domain divided into equal cells.
-struct SearchCells {
-    min: [f64; 2],
-    half: [f64; 2],
-    columns: usize,
-    rows: usize,
+struct SearchCells<const D: usize> {
+    min: [f64; D],
+    half: [f64; D],
+    /// Cells per axis.
+    cells: [usize; D],
 }
 
-impl SearchCells {
-    /// At least `count` cells, about square where the domain is not too thin for it, and not many times more.
-    fn about(domain: &Domain, count: usize) -> Self {
-        let extent = domain.extent();
-        let side = (domain.area() / count as f64).sqrt();
-        let [columns, rows] = extent.map(|length| (length / side).ceil().min(count as f64).max(1.0));
-        let half = [extent[0] / columns / 2.0, extent[1] / rows / 2.0];
-        Self { min: domain.min, half, columns: columns as usize, rows: rows as usize }
+impl<const D: usize> SearchCells<D> {
+    /// About `count` cells, of equal sides where the domain is not too thin for it, and not many times more.
+    fn about(domain: &Domain<D>, count: usize) -> Self {
+        let side = domain.cell_side(count as f64);
+        let cells = domain.extent().map(|length| (length / side).ceil().min(count as f64).max(1.0) as usize);
+        let half = std::array::from_fn(|axis| domain.extent()[axis] / cells[axis] as f64 / 2.0);
+        Self { min: domain.min, half, cells }
     }
 
     fn len(&self) -> usize {
-        self.columns * self.rows
+        self.cells.iter().product()
     }
 
-    fn get(&self, cell: usize) -> SearchCell {
-        let place = [cell % self.columns, cell / self.columns];
-        let centre = std::array::from_fn(|axis| self.min[axis] + (2 * place[axis] + 1) as f64 * self.half[axis]);
+    fn get(&self, mut cell: usize) -> SearchCell<D> {
+        let centre = std::array::from_fn(|axis| {
+            let place = cell % self.cells[axis];
+            cell /= self.cells[axis];
+            self.min[axis] + (2 * place + 1) as f64 * self.half[axis]
+        });
         SearchCell { centre, half: self.half }
     }
 }
 
 /// The largest distance of a place in the cells from the points, if it is above the one that is known.
-fn farthest(nearest: &Nearest, mut cells: Vec<SearchCell>, known: f64) -> f64 {
+fn farthest<const D: usize>(nearest: &Nearest<D>, mut cells: Vec<SearchCell<D>>, known: f64) -> f64 {
     let mut farthest = known;
     while !cells.is_empty() {
-        let offsets: Vec<[f64; 2]> = cells.iter().map(|cell| nearest.offset(cell.centre).map(f64::abs)).collect();
-        farthest = offsets.iter().map(|&[x, y]| hypot(x, y)).fold(farthest, f64::max);
-        let could_exceed = |cell: &SearchCell, offset: [f64; 2]| cell.bound(offset) > farthest * (1.0 + PRECISION);
-        cells = std::iter::zip(&cells, offsets)
-            .filter(|&(cell, offset)| could_exceed(cell, offset))
-            .flat_map(|(cell, offset)| cell.parts(offset))
-            .collect();
+        let offsets: Vec<[f64; D]> = cells.iter().map(|cell| nearest.offset(cell.centre)).collect();
+        farthest = offsets.iter().copied().map(length).fold(farthest, f64::max);
+        let mut parts = Vec::new();
+        for (cell, offset) in std::iter::zip(cells, offsets) {
+            if cell.bound(offset) <= farthest * (1.0 + PRECISION) {
+                continue;
+            }
+            match nearest.around(&cell, length(offset)) {
+                Some(around) => farthest = vertices::farthest(in_space_of(&cell.half), &around, farthest),
+                None => parts.extend(cell.parts(offset)),
+            }
+        }
+        cells = parts;
     }
     farthest
 }
 
-impl SearchCell {
+impl<const D: usize> SearchCell<D> {
     /// A bound for the distances of the cell's points, from the offset of the sample that is nearest to its centre:
     /// they are no farther from this sample than the corner on the other side.
-    fn bound(&self, offset: [f64; 2]) -> f64 {
-        hypot(offset[0] + self.half[0], offset[1] + self.half[1])
+    fn bound(&self, offset: [f64; D]) -> f64 {
+        let corner: [f64; D] = std::array::from_fn(|axis| offset[axis].abs() + self.half[axis]);
+        length(corner)
     }
 
-    /// Halves or quarters: divided along each axis that has a large part in the bound. In a thin domain that is the
-    /// long axis alone, so that there are not many more cells than are needed along the short one.
-    fn parts(&self, offset: [f64; 2]) -> impl Iterator<Item = SearchCell> + use<> {
+    /// Parts of a half of the sides: divided along each axis that has a large part in the bound. In a thin domain that is
+    /// the long axis alone, so that there are not many more cells than are needed along the short one.
+    fn parts(&self, offset: [f64; D]) -> impl Iterator<Item = Self> + use<D> {
         let Self { centre, half } = *self;
-        let excess: [f64; 2] = std::array::from_fn(|axis| half[axis] * (2.0 * offset[axis] + half[axis]));
-        let larger = excess[0].max(excess[1]);
+        let excess: [f64; D] = std::array::from_fn(|axis| half[axis] * (2.0 * offset[axis].abs() + half[axis]));
+        let larger = excess.into_iter().fold(0.0, f64::max);
         let count = excess.map(|excess| if 4.0 * excess >= larger { 2 } else { 1 });
         // A cell that is as small as the float spacing at its place is not divided any further.
-        let half: [f64; 2] = std::array::from_fn(|axis| {
+        let half: [f64; D] = std::array::from_fn(|axis| {
             let part = half[axis] / f64::from(count[axis]);
             if centre[axis] + part == centre[axis] { 0.0 } else { part }
         });
         let along = move |axis: usize, part| centre[axis] + f64::from(2 * part + 1 - count[axis]) * half[axis];
-        (0..count[1]).flat_map(move |row| {
-            (0..count[0]).map(move |column| SearchCell { centre: [along(0, column), along(1, row)], half })
+        (0..count.into_iter().product()).map(move |mut part: i32| {
+            let centre = std::array::from_fn(|axis| {
+                let place = part % count[axis];
+                part /= count[axis];
+                along(axis, place)
+            });
+            Self { centre, half }
         })
     }
 }
@@ -236,25 +256,52 @@ pub fn surface_uncovered_fraction(
 /// tree, whose answer takes longer, but hardly any longer where all points are far away.
 const NEAR: f64 = 4.0;
 
+/// A cell is not divided further if no place of it is farther from its centre than this share of the distance of the nearest
+/// point, and so many points at most are nearest to some place of it.
+const FINE: f64 = 0.25;
+const FEW: usize = 32;
+
 /// Points in a grid, and in a tree for places that are far from all of them.
-pub(super) struct Nearest {
-    domain: Domain,
+pub(super) struct Nearest<const D: usize = 2> {
+    domain: Domain<D>,
     spacing: f64,
-    grid: Grid2,
+    grid: SortedGrid<D>,
     tree: PointTree,
 }
 
-impl Nearest {
+impl<const D: usize> Nearest<D> {
     /// Takes O(n log n). There must be a point.
-    pub fn new(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Self> {
-        let spacing = (domain.area() / points.len() as f64).sqrt();
-        let grid = Grid2::new(*domain, points.iter().map(|point| point.map(f64::from)), spacing);
-        let tree = PointTree::of(job, &points.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>())?;
+    pub fn new(job: &Job, domain: &Domain<D>, points: &[[f32; D]]) -> Result<Self> {
+        let spacing = domain.cell_side(points.len() as f64);
+        let grid = SortedGrid::new(*domain, points.iter().map(|point| point.map(f64::from)), spacing);
+        let tree = PointTree::of(job, &points.iter().map(in_space).collect::<Vec<_>>())?;
         Ok(Self { domain: *domain, spacing, grid, tree })
     }
 
+    /// All points that are nearest to some place of a cell, as offsets from its centre, if it is a cell of space and so small
+    /// that there are few. `distance` is that of the nearest point from its centre.
+    fn around(&self, cell: &SearchCell<D>, distance: f64) -> Option<Vec<DVec3>> {
+        let reach = length(cell.half);
+        let within = distance + 2.0 * reach;
+        // Around a small torus a point may be nearest by two of its images.
+        let shortest = self.domain.extent().into_iter().fold(f64::INFINITY, f64::min);
+        let is_seen = self.domain.boundary == Boundary::Bounded || 2.0 * (within + reach) < shortest;
+        if D < 3 || reach > FINE * distance || !is_seen {
+            return None;
+        }
+        let mut around = Vec::new();
+        let margin = within * (1.0 + 1e-9);
+        self.grid
+            .for_each_within(cell.centre, margin, |_, offset, squared| around.push((squared, in_space_of(&offset))));
+        if around.len() > FEW {
+            return None;
+        }
+        around.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        Some(around.into_iter().map(|(_, offset)| offset).collect())
+    }
+
     /// The offset from a place of the domain to the nearest point.
-    pub fn offset(&self, place: [f64; 2]) -> [f64; 2] {
+    pub fn offset(&self, place: [f64; D]) -> [f64; D] {
         let mut reach = self.spacing;
         while reach <= NEAR * self.spacing {
             let (mut nearest, mut least) = (None, f64::INFINITY);
@@ -272,13 +319,28 @@ impl Nearest {
             Boundary::Periodic => &[0.0, -1.0, 1.0],
             Boundary::Bounded => &[0.0],
         };
-        let [width, height] = self.domain.extent();
-        let images = turns.iter().flat_map(|x| turns.iter().map(move |y| [x * width, y * height]));
-        let offsets = images.filter_map(|turn| {
-            let image = DVec3::new(place[0] + turn[0], place[1] + turn[1], 0.0);
+        let extent = self.domain.extent();
+        let offsets = (0..turns.len().pow(D as u32)).filter_map(|mut image| {
+            let image: [f64; D] = std::array::from_fn(|axis| {
+                let turn = turns[image % turns.len()];
+                image /= turns.len();
+                place[axis] + turn * extent[axis]
+            });
+            let image = in_space_of(&image);
             Some(self.tree.nearest_point(image)? - image)
         });
         let nearest = offsets.min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        nearest.expect("there is a point").truncate().to_array()
+        let nearest = nearest.expect("there is a point").to_array();
+        std::array::from_fn(|axis| nearest[axis])
     }
+}
+
+/// A vector of the plane or of space as one of space.
+fn in_space<T: Copy + Default, const D: usize>(vector: &[T; D]) -> [T; 3] {
+    std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or_default())
+}
+
+/// [`in_space`] for arithmetic.
+fn in_space_of<const D: usize>(vector: &[f64; D]) -> DVec3 {
+    DVec3::from_array(in_space(vector))
 }

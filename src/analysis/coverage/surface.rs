@@ -1,17 +1,14 @@
 //! Coverage of a surface, by cutting it into fragments: a place of a fragment is no farther from the samples than its
 //! centre, plus the distance of the farthest corner from the centre.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 
-use crate::analysis::coverage::gaps::DisjointSets;
+use crate::analysis::coverage::groups::{DEPTH, LINK, check_count, group};
 use crate::analysis::coverage::{Coverage, PRECISION};
 use crate::check;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::index::PointTree;
 use crate::job::{Context, Job, Progress, chunks_of};
-use crate::math::distance_squared;
 use crate::mesh::Mesh;
 use crate::psp::TOLERANCE;
 
@@ -20,15 +17,6 @@ const SHARE: f64 = 1.0 / 2048.0;
 /// The fragments of a task, and of one that gathers their uncovered parts, which may be many.
 const TASK: usize = 64;
 const GATHERED: usize = 8;
-
-/// Uncovered places within this share of the radius are of one gap; fragments are cut until none is half as long.
-const LINK: f64 = 0.5;
-/// Gaps are seen if they are deeper than this share of the radius.
-const DEPTH: f64 = 1e-6;
-/// No more uncovered fragments than this are kept.
-const MAX_UNCOVERED: usize = 1 << 26;
-/// The number of places, or cells of them, that are grouped between two reports.
-const PLACES: u32 = 2048;
 
 /// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
 /// farthest from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set, 0 where
@@ -87,7 +75,8 @@ pub fn surface_coverage(
             return Ok(Coverage { farthest, gaps: 0 });
         }
         let uncovered = gather(&job.part(0.6, 0.8), &tree, &fragments, reach)?;
-        let gaps = count(&job.part(0.8, 1.0), &uncovered, LINK * radius)?.max(1);
+        let place = |id: u32| uncovered[id as usize].map(f64::from);
+        let gaps = group(&job.part(0.8, 1.0), uncovered.len(), place, LINK * radius)?.count().max(1);
         Ok(Coverage { farthest, gaps })
     })
 }
@@ -114,52 +103,6 @@ fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) 
     };
     job.part(0.1, 1.0).stream(tasks.len(), task, keep)?;
     Ok(uncovered)
-}
-
-fn check_count(uncovered: usize) -> Result<()> {
-    if uncovered < MAX_UNCOVERED {
-        Ok(())
-    } else {
-        Err(Error::too_large("radius", format!("leaves more than {MAX_UNCOVERED} fragments of the surface uncovered")))
-    }
-}
-
-/// The groups of places of which each is within `reach` of another one.
-///
-/// Places are sorted into cells in which any two are near, however many they are. One near pair links all places of two
-/// cells.
-fn count(job: &Job, places: &[[f32; 3]], reach: f64) -> Result<usize> {
-    let side = reach / 3f64.sqrt() * (1.0 - 1e-9);
-    // Whole numbers, of which 0 has one form.
-    let cell = |place: [f32; 3]| place.map(|x| (f64::from(x) / side).floor() + 0.0);
-    let key = |cell: [f64; 3]| cell.map(f64::to_bits);
-    let mut groups = DisjointSets::new(places.len());
-    let mut cells: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
-    for (id, &place) in (0..).zip(places) {
-        if id % PLACES == 0 {
-            job.report(0.5 * f64::from(id) / places.len() as f64)?;
-        }
-        let members = cells.entry(key(cell(place))).or_default();
-        members.first().into_iter().for_each(|&first| groups.link(first, id));
-        members.push(id);
-    }
-    let are_near = |a: u32, b: u32| distance_squared(places[a as usize], places[b as usize]) <= reach * reach;
-    for (done, members) in cells.values().enumerate() {
-        if done % PLACES as usize == 0 {
-            job.report(0.5 + 0.5 * done as f64 / cells.len() as f64)?;
-        }
-        let [x, y, z] = cell(places[members[0] as usize]);
-        for step in 0..5 * 5 * 5 {
-            let [i, j, k] = [step / 25, step / 5 % 5, step % 5].map(|step| f64::from(step) - 2.0);
-            let Some(others) = cells.get(&key([x + i + 0.0, y + j + 0.0, z + k + 0.0])) else { continue };
-            if !groups.are_linked(members[0], others[0])
-                && members.iter().any(|&a| others.iter().any(|&b| are_near(a, b)))
-            {
-                groups.link(members[0], others[0]);
-            }
-        }
-    }
-    Ok(groups.count())
 }
 
 /// The largest distance of a place of the fragments; infinite without samples.

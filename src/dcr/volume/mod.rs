@@ -18,7 +18,7 @@ mod torus;
 use crate::dcr::relaxation::{Limits, Steps, Stopped, require_memory, run};
 use crate::dcr::volume::relaxation::VolumeRelaxation;
 use crate::dcr::volume::smallest::smallest_distance;
-use crate::dcr::volume::torus::{VolumeTorus, densest_distance};
+use crate::dcr::volume::torus::VolumeTorus;
 use crate::error::Result;
 use crate::job::{Context, Progress};
 use crate::points::Domain;
@@ -132,7 +132,7 @@ pub fn relax(
         |job, set, Steps { iterations, stopped, motion }| {
             let relaxed = if iterations > 0 { set.points() } else { points.to_vec() };
             let smallest_distance = smallest_distance(job, &domain, &relaxed)?;
-            let rho = smallest_distance / densest_distance(&domain, points.len().max(1));
+            let rho = smallest_distance / domain.packed_distance(points.len().max(1));
             Ok((relaxed, Report { iterations, stopped, motion, smallest_distance, rho }))
         },
     )
