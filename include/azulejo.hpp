@@ -881,6 +881,9 @@ using VolumeOptions =
 /// See azulejo_volume_inside_options; `radius` or `count` is to be set.
 using VolumeInsideOptions =
     GivenOptions<Options<azulejo_volume_inside_options, azulejo_volume_inside_options_init>, 3>;
+/// See azulejo_volume_relax_options.
+using VolumeRelaxOptions =
+    Options<azulejo_volume_relax_options, azulejo_volume_relax_options_init>;
 /// See azulejo_mask_options; `width` and `height` have no defaults.
 using MaskOptions = Options<azulejo_mask_options, azulejo_mask_options_init>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
@@ -1017,6 +1020,7 @@ using ClassesReport = Report<azulejo_classes_report, azulejo_classes_report_init
 using VolumeReport = Report<azulejo_volume_report, azulejo_volume_report_init>;
 using VolumeInsideReport =
     Report<azulejo_volume_inside_report, azulejo_volume_inside_report_init>;
+using VolumeRelaxReport = Report<azulejo_volume_relax_report, azulejo_volume_relax_report_init>;
 using MaskReport = Report<azulejo_mask_report, azulejo_mask_report_init>;
 using ThinReport = Report<azulejo_thin_report, azulejo_thin_report_init>;
 using KdrtMergeReport = Report<azulejo_kdrt_merge_report, azulejo_kdrt_merge_report_init>;
@@ -1848,6 +1852,16 @@ inline Status try_volume_sample_inside(const Context &context, const Mesh &mesh,
     });
 }
 
+/// Relaxes points of a cuboid; see azulejo_volume_relax.
+inline Status try_volume_relax(const Context &context, const VolumeRelaxOptions &options,
+                               const SpacePoints &positions, Points &out,
+                               VolumeRelaxReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_volume_relax(context.get(), &options, positions.data(), positions.size(),
+                                    points, report);
+    });
+}
+
 /// Samples of a mesh in one call; see azulejo_psp_sample.
 inline Status try_psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
                              Points &out, PspReport *report = nullptr) {
@@ -2510,6 +2524,13 @@ inline Points volume_sample_inside(const Context &context, const Mesh &mesh,
                                    VolumeInsideReport *report = nullptr) {
     Points points;
     check(try_volume_sample_inside(context, mesh, options, points, report));
+    return points;
+}
+
+inline Points volume_relax(const Context &context, const VolumeRelaxOptions &options,
+                           const SpacePoints &positions, VolumeRelaxReport *report = nullptr) {
+    Points points;
+    check(try_volume_relax(context, options, positions, points, report));
     return points;
 }
 

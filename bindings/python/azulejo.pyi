@@ -734,6 +734,18 @@ def dcr_surface_relax(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def volume_relax(
+    positions: ArrayLike,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def dcr_remesh(
     mesh: _MeshLike,
     triangles: ArrayLike,

@@ -336,6 +336,28 @@ FIELD(azulejo_dcr_surface_report, reserved, 12);
 FIELD(azulejo_dcr_surface_report, motion, 16);
 FIELD(azulejo_dcr_surface_report, smallest_distance, 24);
 FIELD(azulejo_dcr_surface_report, rho, 32);
+
+SIZE(azulejo_volume_relax_options, 96);
+FIELD(azulejo_volume_relax_options, struct_size, 0);
+FIELD(azulejo_volume_relax_options, boundary, 4);
+FIELD(azulejo_volume_relax_options, domain_min, 8);
+FIELD(azulejo_volume_relax_options, domain_max, 32);
+FIELD(azulejo_volume_relax_options, max_iterations, 56);
+FIELD(azulejo_volume_relax_options, reserved, 60);
+FIELD(azulejo_volume_relax_options, seed, 64);
+FIELD(azulejo_volume_relax_options, tolerance, 72);
+FIELD(azulejo_volume_relax_options, progress, 80);
+FIELD(azulejo_volume_relax_options, progress_user, 88);
+
+SIZE(azulejo_volume_relax_report, 40);
+FIELD(azulejo_volume_relax_report, struct_size, 0);
+FIELD(azulejo_volume_relax_report, iterations, 4);
+FIELD(azulejo_volume_relax_report, stopped, 8);
+FIELD(azulejo_volume_relax_report, reserved, 12);
+FIELD(azulejo_volume_relax_report, motion, 16);
+FIELD(azulejo_volume_relax_report, smallest_distance, 24);
+FIELD(azulejo_volume_relax_report, rho, 32);
+
 SIZE(azulejo_dcr_remesh_report, 104);
 FIELD(azulejo_dcr_remesh_report, struct_size, 0);
 FIELD(azulejo_dcr_remesh_report, reserved, 4);
@@ -521,6 +543,10 @@ static void signatures(void) {
     azulejo_status (*inside_report_init)(azulejo_volume_inside_report *, size_t) = azulejo_volume_inside_report_init;
     azulejo_status (*sample_inside)(const azulejo_context *, const azulejo_mesh *, const azulejo_volume_inside_options *,
                                     azulejo_points **, azulejo_volume_inside_report *) = azulejo_volume_sample_inside;
+    azulejo_status (*relax_options_init)(azulejo_volume_relax_options *, size_t) = azulejo_volume_relax_options_init;
+    azulejo_status (*relax_report_init)(azulejo_volume_relax_report *, size_t) = azulejo_volume_relax_report_init;
+    azulejo_status (*volume_relax)(const azulejo_context *, const azulejo_volume_relax_options *, const float *, size_t,
+                                   azulejo_points **, azulejo_volume_relax_report *) = azulejo_volume_relax;
     uint32_t (*mesh_is_closed)(const azulejo_mesh *) = azulejo_mesh_is_closed;
     azulejo_status (*mesh_contains)(const azulejo_context *, const azulejo_mesh *, const float *, size_t, uint8_t *) =
         azulejo_mesh_contains;
@@ -565,6 +591,7 @@ static void signatures(void) {
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(space_coverage && space_measure);
+    CHECK(relax_options_init && relax_report_init && volume_relax);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);

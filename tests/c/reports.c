@@ -208,6 +208,18 @@ static azulejo_status surface(void *report) {
     return status;
 }
 
+static azulejo_status spatial(void *report) {
+    azulejo_volume_relax_options o;
+    azulejo_points *out = NULL;
+    azulejo_status status;
+    ACCEPTED(azulejo_volume_relax_options_init(&o, sizeof o));
+    o.max_iterations = 3;
+    status = azulejo_volume_relax(context, &o, random_xy, COUNT_OF(random_xy) / 3, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
 static const double low[2] = {0, 0}, high[2] = {1, 1};
 
 static azulejo_status plane(void *report) {
@@ -247,6 +259,7 @@ INIT(psp)
 INIT(dcr)
 INIT(dcr_surface)
 INIT(dcr_remesh)
+INIT(volume_relax)
 INIT(plane)
 INIT(coverage)
 INIT(spectrum)
@@ -283,6 +296,7 @@ static const entry entries[] = {
     {dcr, REPORT(dcr, 8, relative_covering_radius), 0, 0, 1},
     {graded, REPORT(dcr, 8, relative_covering_radius), 0, 0, 1},
     {surface, REPORT(dcr_surface, 8, rho), 0, 0, 1},
+    {spatial, REPORT(volume_relax, 8, rho), 0, 0, 1},
     {remeshed, REPORT(dcr_remesh, 16, mean_smallest_angle), 0, 0, 1},
     {plane, REPORT(plane, 16, beyond_4_sigma), 0, 0, 0},
     {plane_gaps, REPORT(coverage, 16, gaps), 0, 0, 0},

@@ -162,6 +162,71 @@ static void refused(void) {
     CHECK(out == UNTOUCHED);
 }
 
+/* Points that are random at first. */
+enum { RELAXED = 600 };
+
+static azulejo_volume_relax_options relax_options(void) {
+    azulejo_volume_relax_options options;
+    ACCEPTED(azulejo_volume_relax_options_init(&options, sizeof options));
+    return options;
+}
+
+static void relaxes(uint32_t boundary) {
+    azulejo_volume_relax_options options = relax_options();
+    azulejo_volume_relax_report report;
+    azulejo_points *points = NULL, *again = NULL;
+    float positions[3 * RELAXED];
+    azulejo_volume_options unit = volume_options(1);
+    const float *xyz;
+    double smallest = INFINITY;
+    size_t i;
+    uint64_t state = 7;
+    for (i = 0; i < 3 * RELAXED; i++) positions[i] = (float)(0.999 * random_number(&state));
+    options.boundary = unit.boundary = boundary;
+    ACCEPTED(azulejo_volume_relax_report_init(&report, sizeof report));
+    ACCEPTED(azulejo_volume_relax(one, &options, positions, RELAXED, &points, &report));
+    ACCEPTED(azulejo_volume_relax(three, &options, positions, RELAXED, &again, NULL));
+    CHECK(azulejo_points_count(points) == RELAXED && azulejo_points_dimension(points) == 3);
+    xyz = azulejo_points_positions(points);
+    CHECK(memcmp(xyz, azulejo_points_positions(again), sizeof positions) == 0);
+    for (i = 0; i < RELAXED; i++) {
+        const double place[3] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+        smallest = fmin(smallest, nearest(&unit, xyz, i + 1, RELAXED, place));
+        CHECK(xyz[3 * i] >= 0 && xyz[3 * i] < 1 && xyz[3 * i + 2] >= 0 && xyz[3 * i + 2] < 1);
+    }
+    CHECK(fabs(smallest / report.smallest_distance - 1) < 1e-9);
+    CHECK(fabs(smallest / cbrt(sqrt(2) / RELAXED) / report.rho - 1) < 1e-9);
+    CHECK(report.rho > 0.88 && report.iterations <= 100);
+    azulejo_points_free(points);
+    azulejo_points_free(again);
+    points = NULL;
+    options.max_iterations = 0;
+    ACCEPTED(azulejo_volume_relax(one, &options, positions, RELAXED, &points, NULL));
+    CHECK(memcmp(azulejo_points_positions(points), positions, sizeof positions) == 0);
+    azulejo_points_free(points);
+}
+
+static void relaxation_refused(void) {
+    const azulejo_volume_relax_options good = relax_options();
+    azulejo_volume_relax_options bad = good;
+    const float inside[3] = {0.5f, 0.5f, 0.5f}, outside[3] = {0.5f, 1, 0.5f};
+    azulejo_points *out = UNTOUCHED;
+    REFUSED(INVALID, "context", azulejo_volume_relax(NULL, &good, inside, 1, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_volume_relax(one, NULL, inside, 1, &out, NULL));
+    REFUSED(INVALID, "positions", azulejo_volume_relax(one, &good, NULL, 1, &out, NULL));
+    REFUSED(INVALID, "positions: point 0", azulejo_volume_relax(one, &good, outside, 1, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_volume_relax(one, &good, inside, 1, NULL, NULL));
+    bad.tolerance = NAN;
+    REFUSED(INVALID, "tolerance", azulejo_volume_relax(one, &bad, inside, 1, &out, NULL));
+    bad = good;
+    bad.boundary = 2;
+    REFUSED(INVALID, "boundary: 2 is no", azulejo_volume_relax(one, &bad, inside, 1, &out, NULL));
+    bad = good;
+    bad.domain_max[1] = 0;
+    REFUSED(INVALID, "domain_max: [1] is 0", azulejo_volume_relax(one, &bad, inside, 1, &out, NULL));
+    CHECK(out == UNTOUCHED);
+}
+
 int main(void) {
     one = make_context(1);
     three = make_context(3);
@@ -170,6 +235,9 @@ int main(void) {
     around_in_order_and_counted(AZULEJO_BOUNDARY_PERIODIC);
     around_in_order_and_counted(AZULEJO_BOUNDARY_BOUNDED);
     refused();
+    relaxes(AZULEJO_BOUNDARY_PERIODIC);
+    relaxes(AZULEJO_BOUNDARY_BOUNDED);
+    relaxation_refused();
     azulejo_context_free(one);
     azulejo_context_free(three);
     return finish();

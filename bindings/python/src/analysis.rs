@@ -27,6 +27,9 @@ pub(crate) struct MeasuredSet<'py, const N: usize> {
 /// Points of the plane in their domain.
 pub(crate) type PlaneSet<'py> = MeasuredSet<'py, 2>;
 
+/// Points of a cuboid.
+pub(crate) type SpaceSet<'py> = MeasuredSet<'py, 3>;
+
 impl<'py> PlaneSet<'py> {
     pub(crate) fn read(
         positions: &Bound<'py, PyAny>,
@@ -40,9 +43,8 @@ impl<'py> PlaneSet<'py> {
     }
 }
 
-impl<'py> MeasuredSet<'py, 3> {
-    /// Points of a cuboid.
-    fn in_space(
+impl<'py> SpaceSet<'py> {
+    pub(crate) fn in_space(
         positions: &Bound<'py, PyAny>,
         min: Option<[f64; 3]>,
         max: Option<[f64; 3]>,

@@ -2,14 +2,14 @@
 
 use azulejo_core::Domain;
 use azulejo_core::dcr::{
-    self, Convergence, CorrelationOptions, DelaunayOptions, Density, Distribution, Method, Neighbourhood, PairCorrelation,
-    Stopped, Thesis, Visits, surface,
+    self, Convergence, CorrelationOptions, DelaunayOptions, Density, Distribution, Method, Neighbourhood,
+    PairCorrelation, Stopped, Thesis, Visits, surface, volume,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::analysis::PlaneSet;
-use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_whole, natural, real, whole};
+use crate::analysis::{PlaneSet, SpaceSet};
+use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_triple, maybe_whole, natural, real, whole};
 use crate::array::{Array, line};
 use crate::error::{invalid, raised};
 use crate::frame::Frame;
@@ -64,6 +64,23 @@ impl From<dcr::Report> for DcrReport {
             smallest_distance,
             rho,
             relative_covering_radius: Some(relative_covering_radius),
+            class_rho: None,
+            class_relative_covering_radius: None,
+            residual: None,
+        }
+    }
+}
+
+impl From<volume::Report> for DcrReport {
+    fn from(report: volume::Report) -> Self {
+        let volume::Report { iterations, stopped, motion, smallest_distance, rho, .. } = report;
+        Self {
+            iterations,
+            stopped: reason(stopped),
+            motion,
+            smallest_distance,
+            rho,
+            relative_covering_radius: None,
             class_rho: None,
             class_relative_covering_radius: None,
             residual: None,
@@ -416,4 +433,42 @@ pub(crate) fn dcr_surface_relax(
     let (relaxed, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| surface::relax(context, &mesh.shared, triangles, barycentrics, &request, progress))?;
     Points::surface(py, relaxed, mesh.shared.origin())?.with_report(py, DcrReport::from(report))
+}
+
+/// Moves points of a cuboid until they are evenly spread.
+///
+/// positions: the points, float32, shape (n, 3), in domain_min <= x < domain_max; or Points, which have a domain of their own.
+/// domain_min, domain_max: the corners; default the unit cube. boundary: "periodic" or "bounded".
+/// max_iterations: the largest number of steps; the forces of a step depend on it.
+/// tolerance: the motion at which the set has converged; default 0.001.
+/// The others are those of dcr_relax.
+///
+/// Returns Points, in the order of positions, with the report DcrReport, whose unit d_max is the distance of neighbours in the
+/// densest packing, (sqrt(2) volume / n)^(1/3).
+#[pyfunction]
+#[pyo3(signature = (
+    positions, *, domain_min=None, domain_max=None, boundary=None, max_iterations=100, tolerance=None, seed=0, threads=0,
+    progress=None
+))]
+pub(crate) fn volume_relax(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let set = SpaceSet::in_space(positions, domain_min, domain_max, boundary)?;
+    let points = set.points()?;
+    let request = volume::Options::new(set.frame.domain)
+        .max_iterations(natural("max_iterations", max_iterations)?)
+        .seed(natural("seed", seed)?);
+    let request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let (relaxed, report) = Watch::new(py, threads, progress)?
+        .run(|context, progress| volume::relax(context, &request, points, progress))?;
+    Points::cuboid(py, relaxed.into(), &set.frame)?.with_report(py, DcrReport::from(report))
 }

@@ -158,3 +158,35 @@ def test_measures_agree_with_numpy():
     assert azulejo.space_measure(points.positions, 0.25, **domain) == report
     bounded = azulejo.space_coverage(points.positions, 0.2, boundary="bounded", **domain)
     assert bounded.covering_radius > 0.2 and bounded.gaps > 0
+
+
+def test_relaxed_points_are_far_from_each_other():
+    start = np.random.default_rng(5).random((400, 3), np.float32)
+    relaxed = azulejo.volume_relax(start, boundary="periodic")
+    report, spacing = relaxed.report, (2**0.5 / 400) ** (1 / 3)
+    assert smallest_distance(relaxed.positions, period=1.0) == pytest.approx(report.smallest_distance, rel=1e-9)
+    assert report.rho == pytest.approx(report.smallest_distance / spacing, rel=1e-9) and report.rho > 0.88
+    assert (azulejo.volume_relax(start, boundary="periodic", threads=2).positions == relaxed.positions).all()
+    assert (azulejo.volume_relax(start, max_iterations=0, boundary="bounded").positions == start).all()
+
+
+def test_relaxed_points_keep_their_cuboid():
+    points = azulejo.volume_sample(0.08, **SLAB)
+    relaxed = azulejo.volume_relax(points)
+    assert (relaxed.domain_min, relaxed.domain_max, relaxed.boundary) == (points.domain_min, points.domain_max, "bounded")
+    assert (relaxed.positions >= SLAB["domain_min"]).all() and (relaxed.positions < SLAB["domain_max"]).all()
+    assert relaxed.report.smallest_distance > 0.08
+
+
+def test_relaxation_far_from_the_origin_is_that_at_the_origin():
+    start = np.random.default_rng(6).integers(0, 256, (200, 3)) / 256.0
+    origin = np.array([4e6, -2e6, 1e6])
+    near = azulejo.volume_relax(start, domain_min=(0, 0, 0), domain_max=(1, 1, 1), boundary="bounded")
+    far = azulejo.volume_relax(start + origin, domain_min=origin, domain_max=origin + 1, boundary="bounded")
+    assert far.report.rho == pytest.approx(near.report.rho, rel=0.05)
+
+
+def test_wrong_points_of_a_relaxation_are_named():
+    for wrong, argument in [({"positions": [[0.5, 0.5, 1.5]]}, "positions"), ({"tolerance": -1.0}, "tolerance")]:
+        with pytest.raises(ValueError, match=f"^{argument}"):
+            azulejo.volume_relax(**{"positions": [[0.5] * 3], "boundary": "bounded", **wrong})

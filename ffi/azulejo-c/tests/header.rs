@@ -44,8 +44,8 @@ const HEADERS: [Header; 8] = [
     },
     Header {
         name: "volume",
-        page: "Volumes: maximal Poisson-disk sets of cuboids and inside meshes.",
-        sources: &["volume", "inside"],
+        page: "Volumes: maximal Poisson-disk sets of cuboids and inside meshes, and their relaxation.",
+        sources: &["volume", "inside", "volume_relax"],
     },
     Header {
         name: "dcr",

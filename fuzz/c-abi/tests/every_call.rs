@@ -247,6 +247,14 @@ fn planes() {
         (options.radius, options.count, options.order) = (0.0, 3, AZULEJO_ORDER_PROGRESSIVE);
         read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
 
+        let options = defaults(azulejo_volume_relax_options_init);
+        let mut report = defaults(azulejo_volume_relax_report_init);
+        let apart = [0.2f32, 0.2, 0.2, 0.3, 0.2, 0.2];
+        read_and_free(made(|out| {
+            azulejo_volume_relax(context.get(), &options, apart.as_ptr(), 2, out, &raw mut report)
+        }));
+        assert!(report.rho > 0.5);
+
         let mut options = defaults(azulejo_kdrt_merge_options_init);
         options.radius = 0.5;
         let xy = [0.25f32, 0.5];

@@ -1,0 +1,176 @@
+//! Relaxation of points of a cuboid.
+
+use std::ffi::c_void;
+
+use azulejo_core::dcr::volume::{self, Options, Report};
+
+use crate::boundary::{Out, check_reserved, rows};
+use crate::context::azulejo_context;
+use crate::dcr::reason;
+use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
+use crate::growing::{self, Growing, Output, growing};
+use crate::handles;
+use crate::points::azulejo_points;
+use crate::progress::{Watch, azulejo_progress_fn};
+use crate::status::{Failure, azulejo_status};
+
+/// Options of azulejo_volume_relax.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_volume_relax_options {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// An AZULEJO_BOUNDARY_ constant; default periodic.
+    pub boundary: u32,
+    /// The lower corner of the domain, x y z; default 0 0 0.
+    pub domain_min: [f64; 3],
+    /// The upper corner, as in azulejo_space_set; default 1 1 1.
+    pub domain_max: [f64; 3],
+    /// The largest number of steps; default 100. 0 returns the points as they are. The forces of a
+    /// step depend on it.
+    pub max_iterations: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Directions in which coincident points are separated, and the points onto which clustered
+    /// ones are redistributed; default 0.
+    pub seed: u64,
+    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
+    /// Any negative number, such as the default -1, selects 0.001.
+    pub tolerance: f64,
+    /// Default NULL: the callback of the context, if it has one.
+    pub progress: azulejo_progress_fn,
+    /// Passed to the progress callback.
+    pub progress_user: *mut c_void,
+}
+
+growing!(azulejo_volume_relax_options requires domain_max {
+    boundary: AZULEJO_BOUNDARY_PERIODIC,
+    domain_min: [0.0; 3],
+    domain_max: [1.0; 3],
+    max_iterations: 100,
+    reserved: 0,
+    seed: 0,
+    tolerance: -1.0,
+    progress: None,
+    progress_user: std::ptr::null_mut(),
+});
+
+impl azulejo_volume_relax_options {
+    fn request(&self) -> Result<Options, Failure> {
+        let options = Options::new(domain(self.domain_min, self.domain_max, self.boundary)?);
+        check_reserved(self.reserved)?;
+        let tolerance = if self.tolerance < 0.0 { options.tolerance } else { self.tolerance };
+        Ok(options.max_iterations(self.max_iterations).tolerance(tolerance).seed(self.seed))
+    }
+}
+
+/// The report of azulejo_volume_relax. d_fcc is the distance of neighbours in the densest packing of
+/// as many points in the volume, the face-centred cubic one: (sqrt(2) volume / count)^(1/3).
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_volume_relax_report {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// The steps made.
+    pub iterations: u32,
+    /// Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    pub stopped: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Half of the distance that points moved over the last 10 steps, root mean square, in d_fcc.
+    pub motion: f64,
+    /// The smallest distance between two points; infinite for fewer than two.
+    pub smallest_distance: f64,
+    /// The smallest distance in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed
+    /// one; infinite for fewer than two points.
+    pub rho: f64,
+}
+
+growing!(azulejo_volume_relax_report requires iterations {
+    iterations: 0,
+    stopped: 0,
+    reserved: 0,
+    motion: 0.0,
+    smallest_distance: 0.0,
+    rho: 0.0,
+});
+
+impl From<Report> for azulejo_volume_relax_report {
+    fn from(Report { iterations, stopped, motion, smallest_distance, rho, .. }: Report) -> Self {
+        Self { iterations, stopped: reason(stopped), motion, smallest_distance, rho, ..Self::DEFAULT }
+    }
+}
+
+/// Writes the defaults.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_relax_options_init(
+    options: *mut azulejo_volume_relax_options,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("options", options, struct_size) }
+}
+
+/// Writes zeros and the size.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_relax_report_init(
+    report: *mut azulejo_volume_relax_report,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("report", report, struct_size) }
+}
+
+/// Relaxes points of a cuboid: they push each other away until the set has converged or all steps
+/// are made, with which the call succeeds as well. From random points 100 steps end at a rho of
+/// about 0.94. Lattices do not stay. Points that are clustered are redistributed over the cuboid
+/// before the first step. A periodic domain wraps, a bounded one has walls.
+///
+/// positions: the points, x y z each, in domain_min <= x < domain_max.
+///
+/// out: after the last whole step, in the same order; positions only.
+///
+/// O(count) time for each step, and O(count) memory. Source: the constraints of thesis chapter 4,
+/// in space.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_relax(
+    context: *const azulejo_context,
+    options: *const azulejo_volume_relax_options,
+    positions: *const f32,
+    count: usize,
+    out: *mut *mut azulejo_points,
+    report: *mut azulejo_volume_relax_report,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let (options, report): (azulejo_volume_relax_options, _) =
+            unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let points = unsafe { rows::<f32, 3>("positions", positions, "count", count) }?;
+        let request = options.request()?;
+        let watch = Watch::new(options.progress, options.progress_user);
+        let (relaxed, done) =
+            context.run(watch, |context, progress| volume::relax(context, &request, points, progress))?;
+        if let Some(report) = report {
+            report.write(done);
+        }
+        Ok(azulejo_points::space(relaxed.into()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use azulejo_core::{Boundary, Domain};
+
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_those_of_the_core() {
+        let request = azulejo_volume_relax_options::DEFAULT.request().unwrap();
+        assert_eq!(request, Options::new(Domain::unit(Boundary::Periodic)));
+    }
+}
