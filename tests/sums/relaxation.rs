@@ -1,7 +1,8 @@
 //! Relaxation of sets of the plane.
 
 use azulejo::dcr::{
-    self, Convergence, DelaunayOptions, Density, Distribution, Method, Neighbourhood, Options, Thesis, Visits,
+    self, Convergence, CorrelationOptions, DelaunayOptions, Density, Distribution, Method, Neighbourhood, Options,
+    PairCorrelation, Thesis, Visits,
 };
 use azulejo::{Context, Result};
 
@@ -28,6 +29,13 @@ pub fn sums(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
     relax("relax nearest bounded", Options::new(SQUARE, NEAREST).seed(24), &sets.random)?;
     relax("relax 30000 bounded", Options::new(SQUARE, DELAUNAY).seed(25), &sets.bounded)?;
     relax("relax large", Options::new(TORUS, DELAUNAY).seed(25), &sets.large)?;
+
+    for (name, target) in [("step", PairCorrelation::step(0.5)?), ("peak", PairCorrelation::peak(0.6, 0.06, 1.0)?)] {
+        let options = CorrelationOptions::new(TORUS).max_iterations(20);
+        let (relaxed, report) = dcr::relax_to_correlation(context, &options, &sets.random, &target, None)?;
+        list.points(&format!("relax to a {name} of power"), &relaxed);
+        list.numbers(&format!("relax to a {name} of power: residual"), &[report.residual]);
+    }
 
     let thesis = |domain, neighbourhood| Options::thesis(domain, neighbourhood).max_iterations(THESIS_ITERATIONS);
     relax("thesis delaunay", thesis(TORUS, DELAUNAY), &sets.random)?;

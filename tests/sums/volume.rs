@@ -1,7 +1,8 @@
-//! Sets of cuboids, and of the inside of a mesh.
+//! Sets of cuboids, and of the inside of a mesh; relaxed ones.
 
 use std::sync::Arc;
 
+use azulejo::dcr::volume::{Options as RelaxOptions, relax};
 use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Given, Order, Result};
 
@@ -48,6 +49,14 @@ pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
         ] {
             list.samples(&format!("volume {place}, {name}"), &sample(context, &options, None)?.0);
         }
+    }
+    for (place, boundary) in [("torus", Boundary::Periodic), ("cube", Boundary::Bounded)] {
+        let domain = Domain { max: [1.0, 0.5, 0.75], ..Domain::unit(boundary) };
+        let (start, _) = sample(context, &Options::new(radius).domain(domain).seed(85), None)?;
+        let (relaxed, report) =
+            relax(context, &RelaxOptions::new(domain).max_iterations(40).seed(86), &start.positions, None)?;
+        list.samples(&format!("volume {place}, relaxed"), &relaxed.into());
+        list.numbers(&format!("volume {place}, relaxed: report"), &[report.motion, report.smallest_distance]);
     }
     insides(context, radius, list)
 }
