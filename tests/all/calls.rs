@@ -713,7 +713,7 @@ const ANALYSIS: &[Call] = &[
         refused: &[("positions: ", |c, p| said(covering_radius_3d(c, &CUBE, &[[1.0; 3]], p)))],
     },
     Call {
-        name: "analysis::space::figures_3d",
+        name: "analysis::figures_3d",
         reports: 20,
         run: |c, p| said(figures_3d(c, &CUBE, &IN_CUBE, 0.1, p)),
         refused: &[
