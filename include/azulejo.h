@@ -37,7 +37,8 @@
  *   levels of detail, which are prefixes          the same calls, with `order` progressive
  *   sets that exist, joined without seams         azulejo_kdrt_merge
  *   fewer points of a cloud that exists           azulejo_thin
- *   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax
+ *   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax,
+ *                                                 azulejo_volume_relax
  *   a mesh whose vertices are the samples         azulejo_dcr_remesh
  *   samples of a cuboid                           azulejo_volume_sample
  *   samples inside a mesh                         azulejo_volume_sample_inside
@@ -114,9 +115,10 @@
  *   the fraction of the call that is done, which never decreases, from 0 to 1; the 1 comes last,
  *   and only if the call succeeds. A return value other than 0 cancels the call, which returns
  *   AZULEJO_ERROR_CANCELLED. The exceptions are azulejo_dcr_relax, azulejo_dcr_relax_classes,
- *   azulejo_dcr_relax_density and azulejo_dcr_surface_relax: they succeed with the state after the
- *   last whole step, and AZULEJO_STOPPED_CANCELLED in their report. Calls without a context, a psp
- *   or a plane handle do not report progress.
+ *   azulejo_dcr_relax_density, azulejo_dcr_relax_to_correlation, azulejo_dcr_surface_relax and
+ *   azulejo_volume_relax: they succeed with the state after the last whole step, and
+ *   AZULEJO_STOPPED_CANCELLED in their report. Calls without a context, a psp or a plane handle do
+ *   not report progress.
  *
  * Callbacks may call the library, also with the context that is calling them. They must return: an
  *   exception that leaves one ends the process, a longjmp out of it is undefined. Progress and

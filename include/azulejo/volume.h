@@ -1,5 +1,5 @@
 /*
- * Volumes: maximal Poisson-disk sets of cuboids and inside meshes.
+ * Volumes: maximal Poisson-disk sets of cuboids and inside meshes, and their relaxation.
  * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
  */
 
@@ -160,6 +160,65 @@ azulejo_status azulejo_mesh_contains(const azulejo_context *context,
                                      const float *positions,
                                      size_t count,
                                      uint8_t *inside);
+
+/// Options of azulejo_volume_relax.
+typedef struct azulejo_volume_relax_options {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
+    double domain_min[3]; ///< The lower corner of the domain, x y z; default 0 0 0.
+    double domain_max[3]; ///< The upper corner, as in azulejo_space_set; default 1 1 1.
+    /// The largest number of steps; default 100. 0 returns the points as they are. The forces of a
+    /// step depend on it.
+    uint32_t max_iterations;
+    uint32_t reserved; ///< Must be 0.
+    /// Directions in which coincident points are separated, and the points onto which clustered
+    /// ones are redistributed; default 0.
+    uint64_t seed;
+    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
+    /// Any negative number, such as the default -1, selects 0.001.
+    double tolerance;
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
+    void *progress_user; ///< Passed to the progress callback.
+} azulejo_volume_relax_options;
+
+/// The report of azulejo_volume_relax. d_fcc is the distance of neighbours in the densest packing,
+/// the face-centred cubic one, of as many points in the volume: (sqrt(2) volume / count)^(1/3).
+typedef struct azulejo_volume_relax_report {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t iterations; ///< The steps made.
+    uint32_t stopped; ///< Why no more steps were made: an AZULEJO_STOPPED_ constant.
+    uint32_t reserved; ///< Always 0.
+    /// Half of the distance that points moved over the last 10 steps, root mean square, in d_fcc.
+    double motion;
+    /// The smallest distance between two points; infinite for fewer than two.
+    double smallest_distance;
+    /// The smallest distance in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed
+    /// one; infinite for fewer than two points.
+    double rho;
+} azulejo_volume_relax_report;
+
+/// Writes the defaults.
+azulejo_status azulejo_volume_relax_options_init(azulejo_volume_relax_options *options,
+                                                 size_t struct_size);
+
+/// Writes zeros and the size.
+azulejo_status azulejo_volume_relax_report_init(azulejo_volume_relax_report *report,
+                                                size_t struct_size);
+
+/// Relaxes points of a cuboid: they push each other away until the set has converged or all steps
+/// are made, with which the call succeeds as well. From random points 100 steps end at a rho of
+/// about 0.94. Lattices do not stay. Points that are clustered are redistributed over the cuboid
+/// before the first step. A periodic domain wraps, a bounded one has walls.
+/// - positions: the points, x y z each, in domain_min <= x < domain_max.
+/// - out: after the last whole step, in the same order; positions only.
+/// - O(count) time for each step, and O(count) memory. Source: the constraints of thesis chapter 4,
+///   in space.
+azulejo_status azulejo_volume_relax(const azulejo_context *context,
+                                    const azulejo_volume_relax_options *options,
+                                    const float *positions,
+                                    size_t count,
+                                    azulejo_points **out,
+                                    azulejo_volume_relax_report *report);
 
 #ifdef __cplusplus
 }

@@ -30,13 +30,6 @@ pub fn sums(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
     relax("relax 30000 bounded", Options::new(SQUARE, DELAUNAY).seed(25), &sets.bounded)?;
     relax("relax large", Options::new(TORUS, DELAUNAY).seed(25), &sets.large)?;
 
-    for (name, target) in [("step", PairCorrelation::step(0.5)?), ("peak", PairCorrelation::peak(0.6, 0.06, 1.0)?)] {
-        let options = CorrelationOptions::new(TORUS).max_iterations(20);
-        let (relaxed, report) = dcr::relax_to_correlation(context, &options, &sets.random, &target, None)?;
-        list.points(&format!("relax to a {name} of power"), &relaxed);
-        list.numbers(&format!("relax to a {name} of power: residual"), &[report.residual]);
-    }
-
     let thesis = |domain, neighbourhood| Options::thesis(domain, neighbourhood).max_iterations(THESIS_ITERATIONS);
     relax("thesis delaunay", thesis(TORUS, DELAUNAY), &sets.random)?;
     relax("thesis nearest", thesis(SQUARE, NEAREST), &sets.thousand)?;
@@ -45,8 +38,19 @@ pub fn sums(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
         .visits(Visits::OneEnd)
         .convergence(Convergence::Variance);
     relax("thesis one end", thesis(TORUS, DELAUNAY).method(Method::Thesis(variant)), &sets.random)?;
+    to_correlations(context, sets, list)?;
     by_density(context, list)?;
     in_classes(context, sets, list)
+}
+
+fn to_correlations(context: &Context, sets: &Sets, list: &mut List) -> Result<()> {
+    for (name, target) in [("step", PairCorrelation::step(0.5)?), ("peak", PairCorrelation::peak(0.6, 0.06, 1.0)?)] {
+        let options = CorrelationOptions::new(TORUS).max_iterations(20);
+        let (relaxed, report) = dcr::relax_to_correlation(context, &options, &sets.random, &target, None)?;
+        list.points(&format!("relax to a {name} of power"), &relaxed);
+        list.numbers(&format!("relax to a {name} of power: residual"), &[report.residual]);
+    }
+    Ok(())
 }
 
 /// Several classes at once: of equal shares from a maximal set, and of unequal ones from random points.

@@ -115,8 +115,9 @@
 //!   and only if the call succeeds. A return value other than 0 cancels the call, which returns
 //!   AZULEJO_ERROR_CANCELLED. The exceptions are azulejo_dcr_relax, azulejo_dcr_relax_classes,
 //!   azulejo_dcr_relax_density, azulejo_dcr_relax_to_correlation, azulejo_dcr_surface_relax and
-//!   azulejo_volume_relax: they succeed with the state after the last whole step, and AZULEJO_STOPPED_CANCELLED in their report. Calls without a context, a psp
-//!   or a plane handle do not report progress.
+//!   azulejo_volume_relax: they succeed with the state after the last whole step, and
+//!   AZULEJO_STOPPED_CANCELLED in their report. Calls without a context, a psp or a plane handle do
+//!   not report progress.
 //!
 //! Callbacks may call the library, also with the context that is calling them. They must return: an
 //!   exception that leaves one ends the process, a longjmp out of it is undefined. Progress and

@@ -64,8 +64,8 @@ impl azulejo_volume_relax_options {
     }
 }
 
-/// The report of azulejo_volume_relax. d_fcc is the distance of neighbours in the densest packing of
-/// as many points in the volume, the face-centred cubic one: (sqrt(2) volume / count)^(1/3).
+/// The report of azulejo_volume_relax. d_fcc is the distance of neighbours in the densest packing,
+/// the face-centred cubic one, of as many points in the volume: (sqrt(2) volume / count)^(1/3).
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_volume_relax_report {

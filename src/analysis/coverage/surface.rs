@@ -28,7 +28,8 @@ const GATHERED: usize = 8;
 /// Takes O((n + triangles) log n) for samples that are spread about evenly.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for positions that are not finite; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite;
+/// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn surface_covering_radius(
     context: &Context,
     mesh: &Mesh,
@@ -47,16 +48,17 @@ pub fn surface_covering_radius(
 /// Uncovered is what is farther than `radius` from all samples, by more than [`TOLERANCE`] float spacings at the largest
 /// coordinate of the mesh: the rounding of positions can leave less than that uncovered. A *gap* here is a group of
 /// uncovered places in which each is within half of the radius of another one, so that hardly more than a sample is
-/// missing in a small one: a connected part of the uncovered surface, or several that are this near to each other. Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap
-/// deeper than a millionth of the radius is found, however narrow.
+/// missing in a small one: a connected part of the uncovered surface, or several that are this near to each other.
+/// Surfaces may touch and cross, so that distances in space decide, not shared edges. Each gap deeper than a millionth of the radius is found, however narrow.
 ///
 /// Takes what [`surface_covering_radius`] takes, and about 100 fragments for each square of the radius that is
 /// uncovered.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a radius that is not positive and finite and for positions that are not finite;
-/// [`Error::TooLarge`] for a `radius` that leaves uncovered more than some 600,000 times its square;
-/// [`Error::Cancelled`].
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for positions
+/// that are not finite;
+/// [`Error::TooLarge`](crate::Error::TooLarge) for a `radius` that leaves uncovered more than some 600,000 times its square;
+/// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn surface_coverage(
     context: &Context,
     mesh: &Mesh,
