@@ -530,7 +530,16 @@ fn points() {
         let (g, mut residual) = (correlation.as_ptr(), -1.0);
         let relax = |out: Out<_>| {
             azulejo_dcr_relax_to_correlation(
-                context.get(), &options, xy.as_ptr(), 3, 4.0, g, 40, &raw mut residual, out, null_mut(),
+                context.get(),
+                &options,
+                xy.as_ptr(),
+                3,
+                4.0,
+                g,
+                40,
+                &raw mut residual,
+                out,
+                null_mut(),
             )
         };
         assert_eq!(read_and_free(made(relax)), 3);
