@@ -82,7 +82,8 @@ pub struct Report {
 }
 
 /// The peak memory for a point and all of its data, and for each of its images, on axes that are shorter than 3.2 spacings.
-const BYTES_PER_POINT: f64 = 400.0;
+/// Found by `tests/c/memory_limits.c`.
+const BYTES_PER_POINT: f64 = 300.0;
 const BYTES_PER_IMAGE: f64 = 130.0;
 
 /// Relaxes points of a cuboid: returns as many points, in the same order, spread more evenly.

@@ -54,12 +54,9 @@ impl Measures {
     pub fn require(&self, mesh: &Mesh, radius: f64, bytes: f64) -> Result<()> {
         let asking = format!("{radius:?} asks for");
         let refused = |samples: f64| require_samples(samples, bytes, "radius", &asking);
-        let first = self.expected_samples(mesh, radius);
-        refused(first).or_else(|error| {
+        refused(self.expected_samples(mesh, radius)).or_else(|error| {
             // Those of the area are the fewest that can be found.
-            if refused(DENSITY * mesh.area() / (radius * radius)).is_err() {
-                return Err(error);
-            }
+            refused(DENSITY * mesh.area() / (radius * radius))?;
             self.samples_around(mesh, radius).map_or(Err(error), refused)
         })
     }
