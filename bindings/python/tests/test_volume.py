@@ -155,7 +155,7 @@ def test_measures_agree_with_numpy():
     assert covered.gaps == 0 and covered.covering_radius == report.covering_radius <= 0.2 + 1e-5
     assert azulejo.space_coverage(points, 0.17).gaps > 0
     domain = dict(domain_min=(-1, 0, 5), domain_max=(0, 1, 6.5))
-    assert azulejo.space_measure(points.positions, 0.25, **domain) == report
+    assert repr(azulejo.space_measure(points.positions, 0.25, **domain)) == repr(report)
     bounded = azulejo.space_coverage(points.positions, 0.2, boundary="bounded", **domain)
     assert bounded.covering_radius > 0.2 and bounded.gaps > 0
 
