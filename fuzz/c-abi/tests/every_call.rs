@@ -562,8 +562,12 @@ fn points() {
         assert_eq!(azulejo_space_measure(context.get(), &set, 2.0, &mut report), AZULEJO_OK);
         assert_eq!((report.count, report.conflicts, report.rho), (2, 1, 0.0));
         let mut coverage = defaults(azulejo_coverage_report_init);
-        assert_eq!(azulejo_space_coverage(context.get(), &set, 0.5, &mut coverage), AZULEJO_OK);
-        assert!(coverage.gaps > 0 && coverage.covering_radius > 0.5);
+        assert_eq!(azulejo_space_coverage(context.get(), &set, 2.0, &mut coverage), AZULEJO_OK);
+        assert!(coverage.gaps == 0 && coverage.covering_radius > 0.5);
+        // A gap that is small, for the same reason.
+        let radius = 0.99 * coverage.covering_radius;
+        assert_eq!(azulejo_space_coverage(context.get(), &set, radius, &mut coverage), AZULEJO_OK);
+        assert!(coverage.gaps > 0);
         assert!(value(|out| azulejo_space_smallest_distance(context.get(), xy.as_ptr(), 2, out)) > 0.0);
         let mesh = mesh();
         let uncovered =
