@@ -304,14 +304,18 @@ impl Levelled for Cuboid<'_> {
     fn fill(&self, job: &Job, options: LevelOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
         let lattice = self.space.lattice.with_radius(radius);
         let mut space = Space { lattice: &lattice, ..self.space };
-        let mut added = Set::added(job, space, options, samples)?;
-        // A body that is thinner than the tolerance of a large radius.
+        // A body that is thinner than the tolerance of a large radius takes more attempts, each of which gets half of the
+        // progress that is left.
+        let mut done = if space.solid.is_some() && samples.is_empty() { 0.5 } else { 1.0 };
+        let mut added = Set::added(&job.part(0.0, done), space, options, samples)?;
         while let Some(solid) = &mut space.solid
             && samples.is_empty()
             && added.is_empty()
             && solid.refine()
         {
-            added = Set::added(job, space, options, samples)?;
+            let next = 0.5 * (1.0 + done);
+            added = Set::added(&job.part(done, next), space, options, samples)?;
+            done = next;
         }
         let mut all = Vec::with_capacity(samples.len() + added.len());
         all.extend_from_slice(samples);
