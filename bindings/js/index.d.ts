@@ -163,7 +163,7 @@ export class Mesh extends Handle {
     /** The area of all triangles. */
     readonly area: number;
     /**
-     * A mesh from the bytes of a file: OBJ, PLY, STL or OFF, by the extension of its name or else by its contents. Polygons
+     * A mesh from the bytes of a file: OBJ, PLY, STL, OFF or GLB, by the extension of its name or else by its contents. Polygons
      * become triangles.
      */
     static parse(name: string, bytes: ArrayBuffer | Uint8Array): Mesh;

@@ -437,37 +437,19 @@ export function maskCreate(options) {
     return calling((call) => call.make("mask_create", [...sizes, seedOf(options), options.sigma], Uint32Array)[0]);
 }
 
-// The numbers of mask.dither in the Rust library, in the same arithmetic: there is nothing to hand over to the module.
 export function maskDither(ranks, mask, image, levels = 2) {
     mask = withDefaults(MASK, mask);
     image = withDefaults(DITHERED, image);
-    const axes = ["width", "height", "depth", "channels"];
-    const [width, height, depth, channels] = axes.map((name) => whole(name, mask[name]));
-    const pixels = width * height * depth;
-    if (pixels === 0 || channels === 0 || ranks?.length !== pixels * channels) {
-        throw new RangeError(`ranks: ${ranks?.length} are not those of ${width} x ${height} x ${depth} pixels in ${channels} channels`);
-    }
-    whole("levels", levels, 257);
-    if (levels < 2) throw new RangeError(`levels: ${levels} is not in 2..=256`);
-    const [columns, rows, slices, numbers] = axes.map((name) => whole(name, image[name]));
-    const { values } = image;
-    if (numbers === 0 || values?.length !== columns * rows * slices * numbers) {
-        throw new RangeError(`values: ${values?.length} are not ${columns} x ${rows} x ${slices} pixels of ${numbers} channels`);
-    }
-    const isBytes = values instanceof Uint8Array || values instanceof Uint8ClampedArray;
-    const out = new Uint8Array(values.length);
-    for (let row = 0, i = 0; row < rows * slices; row++) {
-        const tile = ((Math.floor(row / rows) % depth) * height + ((row % rows) % height)) * width;
-        for (let x = 0; x < columns; x++) {
-            for (let channel = 0; channel < numbers; channel++, i++) {
-                const number = isBytes ? values[i] / 255 : Math.min(Math.max(Math.fround(values[i]), 0), 1);
-                if (Number.isNaN(number)) throw new RangeError(`values: [${i}] is ${values[i]}, not finite`);
-                const threshold = (ranks[(channel % channels) * pixels + tile + (x % width)] + 0.5) / pixels;
-                out[i] = Math.min(number * (levels - 1) + threshold, levels - 1);
-            }
-        }
-    }
-    return out;
+    const sizes = (of) => ["width", "height", "depth", "channels"].map((name) => whole(name, of[name]));
+    return calling((call) => {
+        const { values } = image;
+        const isBytes = values instanceof Uint8Array || values instanceof Uint8ClampedArray;
+        const args = [
+            ...sizes(mask), ...call.rows("ranks", ranks, Uint32Array, 1), ...sizes(image), whole("levels", levels),
+            Number(isBytes), ...call.rows("values", values, isBytes ? Uint8Array : Float32Array, 1),
+        ];
+        return call.make("mask_dither", args, Uint8Array)[0];
+    });
 }
 
 function density(of) {

@@ -26,7 +26,6 @@
 
 mod binned;
 pub mod curve;
-
 mod grid3;
 mod moving_grid3;
 mod point_tree;
@@ -34,7 +33,6 @@ mod sorted_grid;
 mod weighted;
 
 pub use binned::{Binned, Buckets};
-
 pub use grid3::{Grid3, smallest_distance};
 pub use moving_grid3::MovingGrid3;
 pub use point_tree::PointTree;

@@ -18,7 +18,7 @@ mod ranking;
 mod tournament;
 
 use crate::check;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::setters::setters;
@@ -102,6 +102,28 @@ pub struct Report {
 }
 
 impl Mask {
+    /// The mask of ranks that were kept, in the order of [`ranks`](Self::ranks).
+    ///
+    /// # Errors
+    /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) (`ranks`) for none, for another number than that of the
+    /// pixels of all channels, and for a rank that is not below the number of pixels of a channel.
+    pub fn from_ranks(size: [usize; 3], channels: usize, ranks: Vec<u32>) -> Result<Self> {
+        let [width, height, depth] = size;
+        let numbers = size.into_iter().try_fold(channels, usize::checked_mul);
+        if ranks.is_empty() || numbers != Some(ranks.len()) {
+            let reason =
+                format!("{} are not those of {width} x {height} x {depth} pixels in {channels} channels", ranks.len());
+            return Err(Error::invalid("ranks", reason));
+        }
+        let mask = Self { size, channels, ranks };
+        match mask.ranks.iter().position(|&rank| rank as usize >= mask.pixels()) {
+            Some(i) => {
+                Err(Error::invalid("ranks", format!("[{i}] is {}, not below {} pixels", mask.ranks[i], mask.pixels())))
+            }
+            None => Ok(mask),
+        }
+    }
+
     /// The pixels of a channel.
     pub fn pixels(&self) -> usize {
         self.size.iter().product()
@@ -193,6 +215,18 @@ mod tests {
 
     fn made(options: &Options) -> Mask {
         create(&Context::new(1).unwrap(), options, None).unwrap().0
+    }
+
+    #[test]
+    fn kept_ranks_make_the_same_mask() {
+        let mask = made(&Options::new(6, 5).channels(2));
+        assert_eq!(Mask::from_ranks(mask.size, 2, mask.ranks.clone()).unwrap(), mask);
+        let refused =
+            |size, channels, ranks: &[u32]| Mask::from_ranks(size, channels, ranks.to_vec()).unwrap_err().to_string();
+        assert!(refused(mask.size, 1, &mask.ranks).starts_with("ranks: 60 are not those of 6 x 5 x 1 pixels in 1 "));
+        assert!(refused([usize::MAX; 3], 2, &mask.ranks).starts_with("ranks: 60 are not"));
+        assert!(refused([0; 3], 1, &[]).starts_with("ranks: 0 are not"));
+        assert_eq!(refused([2, 1, 1], 1, &[1, 2]), "ranks: [1] is 2, not below 2 pixels");
     }
 
     #[test]

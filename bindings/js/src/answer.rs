@@ -49,7 +49,7 @@ macro_rules! arrays {
     };
 }
 
-arrays!(F32 of f32, F32x2 of [f32; 2], F32x3 of [f32; 3], U32 of u32, F64 of f64);
+arrays!(Bytes of u8, F32 of f32, F32x2 of [f32; 2], F32x3 of [f32; 3], U32 of u32, F64 of f64);
 
 impl Answer {
     /// This answer with one more array.

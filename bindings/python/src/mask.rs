@@ -109,9 +109,5 @@ fn mask_of(ranks: &Array<u32>) -> PyResult<Mask> {
     if most == 0 || most != size.iter().product::<usize>() {
         return Err(invalid("ranks", format!("the largest is not the number of pixels of {size:?} - 1")));
     }
-    // A mask is made by the library alone; the smallest one takes these ranks.
-    let (mut mask, _) =
-        mask::create(&azulejo_core::Context::new(1).map_err(raised)?, &Options::new(2, 2), None).map_err(raised)?;
-    (mask.size, mask.channels, mask.ranks) = (size, channels, ranks.entries().to_vec());
-    Ok(mask)
+    Mask::from_ranks(size, channels, ranks.entries().to_vec()).map_err(raised)
 }

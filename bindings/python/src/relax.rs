@@ -45,63 +45,47 @@ report! {
     }
 }
 
-fn reason(stopped: Stopped) -> String {
-    let name = match stopped {
-        Stopped::Converged => "converged",
-        Stopped::Steps => "steps",
-        Stopped::Cancelled => "cancelled",
-    };
-    name.to_owned()
+impl DcrReport {
+    /// What all relaxations report.
+    fn steps(iterations: u32, stopped: Stopped, motion: f64, smallest_distance: f64, rho: f64) -> Self {
+        let stopped = match stopped {
+            Stopped::Converged => "converged",
+            Stopped::Steps => "steps",
+            Stopped::Cancelled => "cancelled",
+        };
+        Self {
+            iterations,
+            stopped: stopped.to_owned(),
+            motion,
+            smallest_distance,
+            rho,
+            relative_covering_radius: None,
+            class_rho: None,
+            class_relative_covering_radius: None,
+            residual: None,
+        }
+    }
 }
 
 impl From<dcr::Report> for DcrReport {
     fn from(report: dcr::Report) -> Self {
         let dcr::Report { iterations, stopped, motion, smallest_distance, rho, relative_covering_radius, .. } = report;
-        Self {
-            iterations,
-            stopped: reason(stopped),
-            motion,
-            smallest_distance,
-            rho,
-            relative_covering_radius: Some(relative_covering_radius),
-            class_rho: None,
-            class_relative_covering_radius: None,
-            residual: None,
-        }
+        let relative_covering_radius = Some(relative_covering_radius);
+        Self { relative_covering_radius, ..Self::steps(iterations, stopped, motion, smallest_distance, rho) }
     }
 }
 
 impl From<volume::Report> for DcrReport {
     fn from(report: volume::Report) -> Self {
         let volume::Report { iterations, stopped, motion, smallest_distance, rho, .. } = report;
-        Self {
-            iterations,
-            stopped: reason(stopped),
-            motion,
-            smallest_distance,
-            rho,
-            relative_covering_radius: None,
-            class_rho: None,
-            class_relative_covering_radius: None,
-            residual: None,
-        }
+        Self::steps(iterations, stopped, motion, smallest_distance, rho)
     }
 }
 
 impl From<surface::Report> for DcrReport {
     fn from(report: surface::Report) -> Self {
         let surface::Report { iterations, stopped, motion, smallest_distance, rho, .. } = report;
-        Self {
-            iterations,
-            stopped: reason(stopped),
-            motion,
-            smallest_distance,
-            rho,
-            relative_covering_radius: None,
-            class_rho: None,
-            class_relative_covering_radius: None,
-            residual: None,
-        }
+        Self::steps(iterations, stopped, motion, smallest_distance, rho)
     }
 }
 

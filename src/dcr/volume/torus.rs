@@ -182,17 +182,13 @@ pub fn place([x, y, z, _]: Position) -> Place {
     [x.to_bits(), y.to_bits(), z.to_bits()]
 }
 
-/// [`Domain::packed_distance`] of a cuboid that is as large as it is for points.
+/// [`Domain::packed_distance`] of a cuboid that is as large as it is for points: its sides grow with the distance, less than
+/// that does. By halving an interval: only operations that are the same to the bit everywhere.
 fn spacing(domain: &Domain<3>, count: usize) -> f64 {
-    distance_of(domain, count, |length, distance| match domain.boundary {
+    let side = |length: f64, distance: f64| match domain.boundary {
         Boundary::Bounded => (length + WALLS * distance).max(LAYER * distance),
         Boundary::Periodic => length.max(LAYER * distance),
-    })
-}
-
-/// The distance at which `count` points fill a cuboid whose sides are functions of the distance that grow less than it does.
-/// By halving an interval: only operations that are the same to the bit everywhere.
-fn distance_of(domain: &Domain<3>, count: usize, side: impl Fn(f64, f64) -> f64) -> f64 {
+    };
     let holds = |distance: f64| {
         let places: f64 = domain.extent().into_iter().map(|length| side(length, distance) / distance).product();
         places * std::f64::consts::SQRT_2
