@@ -105,7 +105,7 @@ impl Mask {
     /// The mask of ranks that were kept, in the order of [`ranks`](Self::ranks).
     ///
     /// # Errors
-    /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) (`ranks`) for none, for another number than that of the
+    /// [`Error::InvalidArgument`] (`ranks`) for none, for another number than that of the
     /// pixels of all channels, and for a rank that is not below the number of pixels of a channel.
     pub fn from_ranks(size: [usize; 3], channels: usize, ranks: Vec<u32>) -> Result<Self> {
         let [width, height, depth] = size;
@@ -164,9 +164,9 @@ impl Mask {
 /// some 400 in the plane and 6,000 in space. 16 bytes of memory per pixel and channel.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an option out of range;
-/// [`Error::TooLarge`](crate::Error::TooLarge) beyond the available memory (`channels`);
-/// [`Error::Cancelled`](crate::Error::Cancelled).
+/// [`Error::InvalidArgument`] for an option out of range;
+/// [`Error::TooLarge`] beyond the available memory (`channels`);
+/// [`Error::Cancelled`].
 ///
 /// ```
 /// use azulejo::{Context, mask};
