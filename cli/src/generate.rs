@@ -12,8 +12,8 @@ use azulejo::Order;
 use clap::{Args, ValueEnum};
 
 use crate::formats::Destination;
-use crate::output::Output;
-use crate::text::{grouped, rounded};
+use crate::output::{Output, Report};
+use crate::text::rounded;
 
 pub use plane::Plane;
 pub use relax::Relax;
@@ -61,20 +61,33 @@ pub fn count<N: TryFrom<u64>>(text: &str) -> Result<N, String> {
     }
 }
 
-/// The deviation of a count from the one that was asked for; empty if they are equal.
-pub fn compared(count: usize, asked: u64) -> String {
-    if count as u64 == asked {
-        return String::new();
-    }
+/// The number that was asked for, and the deviation of a count from it.
+pub fn compared(count: usize, asked: u64) -> Report {
     let excess = count as f64 / asked as f64 - 1.0;
     let (percent, how) = (rounded(100.0 * excess.abs(), 2), if excess < 0.0 { "fewer" } else { "more" });
-    format!("{percent} % {how} than asked for, ")
+    let text = if count as u64 == asked { String::new() } else { format!("{percent} % {how} than asked for") };
+    Report::default().fact("asked", asked, text)
+}
+
+/// A radius that may differ from the one that was asked for.
+pub fn of_radius(radius: f64) -> Report {
+    Report::default().fact("radius", radius, format!("radius {}", rounded(radius, 4)))
+}
+
+/// The covering radius, in words where it is more than the radius.
+pub fn covered(radius: f64, covering_radius: f64) -> Report {
+    let text = if covering_radius > radius {
+        format!("covered within {}", rounded(covering_radius, 4))
+    } else {
+        String::new()
+    };
+    Report::default().fact("covering_radius", covering_radius, text)
 }
 
 /// Reports the number of samples that were written, and how they were made.
-pub fn report(output: &Output, count: usize, about: &str, seconds: f64) {
-    let samples = if count == 1 { "sample" } else { "samples" };
-    output.report(&format!("{} {samples}, {about}, {seconds:.2} s", grouped(count)));
+pub fn report(output: &Output, count: usize, about: Report, seconds: f64) {
+    let what = if count == 1 { "sample" } else { "samples" };
+    output.report(&Report::default().count("samples", count, what).and(about).seconds(seconds));
 }
 
 #[cfg(test)]

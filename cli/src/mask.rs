@@ -10,7 +10,7 @@ use azulejo::{Context, Error, Result};
 use clap::Args;
 use png::{BitDepth, ColorType, Encoder};
 
-use crate::output::Output;
+use crate::output::{Report, Writing};
 use crate::progress::watched;
 use crate::stipple::darkness;
 
@@ -21,6 +21,8 @@ pub(crate) struct Masking {
     /// `--dither` the halftone (PNG).
     #[arg(short, long, value_name = "FILE.png|raw")]
     output: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
     /// The pixels along x: 2 to 1024, up to 64 with a depth above 1.
     #[arg(long, value_name = "PIXELS")]
     width: usize,
@@ -72,19 +74,20 @@ impl Picture {
 impl Masking {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let is_raw = self.is_raw()?;
-        let output = Output::at(&self.output)?;
+        let output = self.writing.at(&self.output)?;
         // What is wrong with the image is said before the mask is made.
         let image = self.dither.as_deref().map(|path| darkness::load(path, self.gamma)).transpose()?;
         let options = Options::new(self.width, self.height).depth(self.depth).channels(self.channels);
         let options = options.seed(self.seed).sigma(self.sigma);
         let start = Instant::now();
         let (mask, _) = watched("mask", |progress| create(context, &options, Some(progress)))?;
-        let what = match image {
+        let report = match image {
             Some(image) => {
                 let halftone = self.halftone(&mask, &image)?;
                 output.write(|writer| halftone.write(writer))?;
                 let [width, height] = halftone.size;
-                format!("{width} x {height} pixels in {} levels", self.levels)
+                let text = format!("{width} x {height} pixels in {} levels", self.levels);
+                Report::default().fact("size", vec![width, height], text).fact("levels", self.levels, "")
             }
             None => {
                 if is_raw {
@@ -94,10 +97,14 @@ impl Masking {
                     output.write(|writer| picture(&mask).write(writer))?;
                 }
                 let [width, height, depth] = mask.size;
-                format!("{width} x {height} x {depth} pixels, channels: {}", mask.channels)
+                Report::default().fact("size", mask.size.to_vec(), format!("{width} x {height} x {depth} pixels")).fact(
+                    "channels",
+                    mask.channels,
+                    format!("channels: {}", mask.channels),
+                )
             }
         };
-        output.report(&format!("{what}, {:.2} s", start.elapsed().as_secs_f64()));
+        output.report(&report.seconds(start.elapsed().as_secs_f64()));
         Ok(())
     }
 

@@ -10,9 +10,8 @@ use clap::{ArgAction, Args};
 use crate::domain::DomainArgs;
 use crate::formats::Input;
 use crate::formats::points::PointTable;
-use crate::generate::{Common, report};
+use crate::generate::{Common, of_radius, report};
 use crate::progress::watched;
-use crate::text::{grouped, rounded};
 
 /// The message about sets that are not of the plane.
 const INSTEAD: &str = "only sets of the plane can be merged";
@@ -67,10 +66,11 @@ impl Merge {
         let (samples, done) = watched("merge", merge).map_err(|error| self.name_pieces(error))?;
         let seconds = start.elapsed().as_secs_f64();
         output.write_points(&domain, &PointTable::of(&samples.positions))?;
-        let [kept, eliminated, inserted] = [done.kept, done.eliminated, done.inserted].map(grouped);
-        let about =
-            format!("radius {}, {kept} kept, {eliminated} eliminated, {inserted} inserted", rounded(self.radius, 4));
-        report(&output.output, samples.len(), &about, seconds);
+        let about = of_radius(self.radius)
+            .count("kept", done.kept, "kept")
+            .count("eliminated", done.eliminated, "eliminated")
+            .count("inserted", done.inserted, "inserted");
+        report(&output.output, samples.len(), about, seconds);
         Ok(())
     }
 

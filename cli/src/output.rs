@@ -1,6 +1,8 @@
 //! The output of commands: files, complete or not at all, and results on the standard output.
 
+mod report;
 mod temporary;
+mod writing;
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -8,14 +10,20 @@ use std::path::{Path, PathBuf};
 
 use azulejo::{Error, Result};
 
+pub use report::Report;
 use temporary::Temporary;
 pub use temporary::remove_on_signals;
+pub use writing::{Replacing, Writing};
 
 /// A file to be written at the end of a command: as a temporary file in the same directory, renamed once complete.
 pub struct Output {
     /// As the user gave it, for messages.
     path: PathBuf,
     target: Target,
+    /// False if a file that exists is left as it is.
+    replaces: bool,
+    /// True if the report is JSON.
+    json: bool,
 }
 
 enum Target {
@@ -32,7 +40,7 @@ impl Output {
             _ if path == Path::new("-") => Target::Stdout,
             _ => Target::File(fs::canonicalize(path).unwrap_or_else(|_| path.into())),
         };
-        let output = Self { path: path.into(), target };
+        let output = Self { path: path.into(), target, replaces: true, json: false };
         output.target.probe().map_err(|error| output.error(error))?;
         Ok(output)
     }
@@ -46,6 +54,19 @@ impl Output {
             }
             _ => Self::at(path),
         }
+    }
+
+    /// The same for a file that does not exist yet; refuses one that does.
+    fn only_new(self) -> Result<Self> {
+        match &self.target {
+            Target::File(path) if !self.target.is_stream() && path.exists() => Err(self.error(exists())),
+            _ => Ok(Self { replaces: false, ..self }),
+        }
+    }
+
+    /// The same with a report as JSON or as text.
+    fn reported(self, json: bool) -> Self {
+        Self { json, ..self }
     }
 
     fn error(&self, source: io::Error) -> Error {
@@ -68,17 +89,20 @@ impl Output {
             Target::File(path) => {
                 let temporary = Temporary::new(directory(path))?;
                 fill(temporary.file(), content)?;
-                temporary.persist(path)
+                if self.replaces { temporary.persist(path) } else { temporary.persist_new(path) }
             }
         }
     }
 
-    /// Prints one line about what was written, unless that went to the standard output itself, a pipe or a device. It
-    /// does not matter if the line cannot be printed.
-    pub fn report(&self, what: &str) {
-        if !self.target.is_stream() {
-            _ = writeln!(io::stdout(), "{}: {what}", self.path.display());
-        }
+    /// Prints one line about what was written. If that went to the standard output itself, a pipe or a device, text is
+    /// left out, and JSON goes to the standard error. It does not matter if the line cannot be printed.
+    pub fn report(&self, report: &Report) {
+        _ = match (self.json, self.target.is_stream()) {
+            (false, false) => writeln!(io::stdout(), "{}", report.line(&self.path)),
+            (false, true) => Ok(()),
+            (true, false) => writeln!(io::stdout(), "{}", report.json(&self.path)),
+            (true, true) => writeln!(io::stderr(), "{}", report.json(&self.path)),
+        };
     }
 }
 
@@ -100,6 +124,10 @@ impl Target {
             _ => tempfile::tempfile_in(directory(path)).map(|_| ()),
         }
     }
+}
+
+fn exists() -> io::Error {
+    io::Error::new(io::ErrorKind::AlreadyExists, "exists already; --force replaces it")
 }
 
 fn directory(path: &Path) -> &Path {

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use azulejo::{Error, Result};
 use clap::{Args, ValueEnum};
 
-use crate::output::Output;
+use crate::output::{Report, Writing};
 use crate::ply;
 use shapes::Soup;
 
@@ -20,6 +20,8 @@ pub(crate) struct Procedural {
     /// The mesh: a binary PLY file.
     #[arg(short, long, value_name = "FILE.ply")]
     output: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
     /// The level of detail: the number of quads along the knot, around the sphere, around the hole of the torus and
     /// around each column of the hall [default: 1280, 256, 256 and 40].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=20_000))]
@@ -61,7 +63,7 @@ impl Shape {
 
 impl Procedural {
     pub(crate) fn run(&self) -> Result<()> {
-        let output = Output::of_format("ply", &self.output)?;
+        let output = self.writing.of_format("ply", &self.output)?;
         let (default, greatest) = self.shape.details();
         let detail = self.detail.unwrap_or(default);
         if detail > greatest {
@@ -69,7 +71,14 @@ impl Procedural {
             return Err(Error::InvalidArgument { argument: "--detail", reason });
         }
         let (positions, triangles) = self.shape.make(detail);
-        ply::write_mesh(&output, &positions, &triangles, [0.0; 3])
+        ply::write_mesh(&output, &positions, &triangles, [0.0; 3])?;
+        let (vertices, triangles) = (positions.len(), triangles.len());
+        output.report(&Report::default().count("vertices", vertices, "vertices").count(
+            "triangles",
+            triangles,
+            "triangles",
+        ));
+        Ok(())
     }
 }
 

@@ -25,7 +25,7 @@ and images: points are read and written as PLY there unless --input-format or --
 mesh is recognised by its contents.
 
 Exit codes: 0 done; 1 refused or failed, with the reason on the standard error; 2 wrong usage. Files are written whole or \
-not at all.";
+not at all, and those that exist are replaced with --force only. --json prints reports for programs.";
 
 /// Blue-noise samples in the plane, on meshes and in boxes: make them, relax them, measure them, draw them.
 #[derive(Parser)]

@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 
 use crate::formats::points::PointTable;
 use crate::generate::{compared, count, report};
-use crate::output::Output;
+use crate::output::{Report, Writing};
 use crate::ply;
 use crate::progress::watched;
 use crate::text::rounded;
@@ -28,6 +28,8 @@ pub(crate) struct Stipple {
     /// The dots, in pixels of the image, with y downwards: a drawing (SVG), a picture (PNG) or the centres alone (PLY).
     #[arg(short, long, value_name = "FILE.svg|png|ply")]
     output: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
     /// The format of the output [default: by the extension].
     #[arg(long, value_enum, value_name = "FORMAT")]
     format: Option<Format>,
@@ -85,7 +87,7 @@ impl Format {
     }
 }
 
-/// Dots, and a remark on how they were made.
+/// Dots, and a report on how they were made.
 struct Stippled {
     /// The paper.
     domain: Domain,
@@ -93,19 +95,19 @@ struct Stippled {
     /// The ink of each; empty if all are black.
     inks: Vec<u32>,
     radius: f64,
-    said: String,
+    about: Report,
 }
 
 impl Stipple {
     pub(crate) fn run(&self, context: &Context) -> Result<()> {
         let format = self.format.map_or_else(|| Format::of(&self.output), Ok)?;
-        let output = Output::at(&self.output)?;
+        let output = self.writing.at(&self.output)?;
         let start = Instant::now();
         let stippled = if self.cmyk { self.in_inks(context)? } else { self.in_black(context)? };
         let seconds = start.elapsed().as_secs_f64();
-        let Stippled { domain, centres, inks, radius, said } = &stippled;
+        let Stippled { domain, centres, inks, radius, about } = stippled;
         let size = domain.max.map(|length| length as usize);
-        let drawing = Drawing { size, dots: centres, inks, radius: *radius };
+        let drawing = Drawing { size, dots: &centres, inks: &inks, radius };
         match format {
             Format::Svg => drawing.write_svg(&output)?,
             Format::Png => {
@@ -115,30 +117,31 @@ impl Stipple {
                 drawing.write_png(width, self.gamma, &output)?;
             }
             Format::Ply => {
-                ply::write_points(&output, domain, &PointTable { classes: inks, ..PointTable::of(centres) })?
+                ply::write_points(&output, &domain, &PointTable { classes: &inks, ..PointTable::of(&centres) })?
             }
         }
-        report(&output, centres.len(), &format!("{said}dots of radius {}", rounded(*radius, 4)), seconds);
+        let about = about.fact("dot_radius", radius, format!("dots of radius {}", rounded(radius, 4)));
+        report(&output, centres.len(), about, seconds);
         Ok(())
     }
 
     fn in_black(&self, context: &Context) -> Result<Stippled> {
         let darkness = Darkness::load(&self.image, self.gamma)?;
-        let (centres, said) = self.dots(context, &darkness)?;
+        let (centres, about) = self.dots(context, &darkness)?;
         let radius = darkness.dot_radius(centres.len());
-        Ok(Stippled { domain: darkness.domain(), centres, inks: Vec::new(), radius, said })
+        Ok(Stippled { domain: darkness.domain(), centres, inks: Vec::new(), radius, about })
     }
 
     fn in_inks(&self, context: &Context) -> Result<Stippled> {
         let inks = Darkness::load_inks(&self.image, self.gamma)?;
         let count = self.count as usize;
         let (dots, radius) = watched("dots", |progress| inks::dots(context, &inks, count, self.seed, progress))?;
-        let said = compared(dots.centres.len(), self.count.into());
-        Ok(Stippled { domain: inks[0].domain(), centres: dots.centres, inks: dots.inks, radius, said })
+        let about = compared(dots.centres.len(), self.count.into());
+        Ok(Stippled { domain: inks[0].domain(), centres: dots.centres, inks: dots.inks, radius, about })
     }
 
-    /// The dots, and a remark on how they were made.
-    fn dots(&self, context: &Context, darkness: &Darkness) -> Result<(Vec<[f32; 2]>, String)> {
+    /// The dots, and a report on how they were made.
+    fn dots(&self, context: &Context, darkness: &Darkness) -> Result<(Vec<[f32; 2]>, Report)> {
         if self.no_relax {
             let set = watched("dots", |progress| {
                 dots::poisson(context, darkness, self.count.into(), Given::default(), self.seed, progress)
@@ -149,6 +152,6 @@ impl Stipple {
         let random = dots::random(context, darkness, self.count as usize, self.seed)?;
         let (set, done) =
             watched("relax", |progress| dots::relaxed(context, darkness, &random, self.iterations, progress))?;
-        Ok((set, format!("{} steps, ", done.iterations)))
+        Ok((set, Report::default().fact("steps", done.iterations, format!("{} steps", done.iterations))))
     }
 }

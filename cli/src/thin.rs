@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 
 use crate::formats::{Input, blame};
 use crate::generate::count;
-use crate::output::Output;
+use crate::output::{Report, Writing};
 use crate::progress::watched;
 use crate::text::grouped;
 
@@ -23,6 +23,8 @@ pub struct Thin {
     /// The file of the selected points, in the format of the cloud, with all its columns.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    #[command(flatten)]
+    writing: Writing,
     /// The number of points to select, each the farthest from those before: `1000000` or `1e6`. A smaller cloud is
     /// selected whole.
     #[arg(long, value_name = "N", value_parser = count::<u64>, required_unless_present_any = ["radius", "order"])]
@@ -49,7 +51,7 @@ enum Sequence {
 
 impl Thin {
     pub fn run(&self, context: &Context) -> Result<()> {
-        let output = Output::at(&self.output)?;
+        let output = self.writing.at(&self.output)?;
         let cloud = self.format.read_cloud(&self.input)?;
         cloud.check_output(&self.output)?;
         if matches!(self.order, Sequence::Progressive) {
@@ -70,8 +72,9 @@ impl Thin {
         let selected = watched("thin", select).map_err(|error| blame(&self.input, error))?;
         let seconds = start.elapsed().as_secs_f64();
         cloud.write(&output, &selected.indices, &selected.ranks)?;
-        let [selected, all] = [selected.indices.len(), cloud.positions().len()].map(grouped);
-        output.report(&format!("{selected} of {all} points, {seconds:.2} s"));
+        let [selected, all] = [selected.indices.len(), cloud.positions().len()];
+        let text = format!("{} of {} points", grouped(selected), grouped(all));
+        output.report(&Report::default().fact("selected", selected, text).fact("points", all, "").seconds(seconds));
         Ok(())
     }
 }

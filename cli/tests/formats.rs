@@ -60,7 +60,7 @@ fn samples_of_a_surface_keep_what_each_format_has_a_place_for() {
         workshop.succeed(&["relax", &input, "--mesh", "roof.obj", "--iterations", "0", "-o", "back.ply"]);
         assert!(fs::read(workshop.path("back.ply")).unwrap() == fs::read(workshop.path("a.ply")).unwrap(), "{format}");
     }
-    let said = workshop.refuse(&["relax", "a.xyz", "--mesh", "roof.obj", "-o", "back.ply"], 1);
+    let said = workshop.refuse(&["relax", "a.xyz", "--mesh", "roof.obj", "-o", "none.ply"], 1);
     assert!(said.contains("a.xyz: does not say on which triangle"), "{said}");
     let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
     assert!(text.starts_with("x,y,z,nx,ny,nz,triangle,u,v\n"), "{text}");

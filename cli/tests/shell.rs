@@ -77,8 +77,8 @@ mod streams {
             let said = workshop.succeed(&["analyze", "a.ply", "--mesh", mesh]);
             let piped = from(mesh, &["analyze", "a.ply", "--mesh", "-"]);
             assert_eq!(String::from_utf8(piped).unwrap(), said.replace(mesh, "-"));
-            from(mesh, &["draw", "surface", "-", "a.ply", "-o", "a.png", "--size", "200"]);
-            from(mesh, &["relax", "a.ply", "--mesh", "-", "--iterations", "2", "-o", "b.ply"]);
+            from(mesh, &["draw", "surface", "-", "a.ply", "-o", "a.png", "--size", "200", "--force"]);
+            from(mesh, &["relax", "a.ply", "--mesh", "-", "--iterations", "2", "-o", "b.ply", "--force"]);
         }
         assert_eq!(
             from("a.png", &["mesh", "sphere", "--detail", "16", "-o", "-"]),

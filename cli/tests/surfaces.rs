@@ -25,7 +25,7 @@ fn every_shape_can_be_made_and_sampled() {
         // It stands on y, as pictures have it.
         ("hall", 172 * 1024, 1000, [4.0, 1.0, 2.0]),
     ] {
-        assert!(workshop.succeed(&["mesh", shape, "--detail", "32", "-o", "mesh.ply"]).is_empty());
+        workshop.succeed(&["mesh", shape, "--detail", "32", "-o", "mesh.ply"]);
         let file = fs::read(workshop.path("mesh.ply")).unwrap();
         assert!(String::from_utf8_lossy(&file[..300]).contains(&format!("\nelement face {faces}\n")), "{shape}");
         let count_text = count.to_string();
@@ -436,7 +436,9 @@ fn samples_of_a_mesh_far_from_the_origin_are_written_in_its_frame() {
         };
         assert!((0.05 - 1e-6..0.06).contains(&figure("smallest_distance")), "{name}");
         assert!(figure("covering_radius") <= 0.05 + 1e-5, "{name}");
-        assert!(count == 6 || workshop.run(&["relax", name, "--mesh", "far.obj", "-o", "b.csv"]).status.success());
+        if count == 9 {
+            workshop.succeed(&["relax", name, "--mesh", "far.obj", "-o", "b.csv"]);
+        }
     }
     let text = fs::read_to_string(workshop.path("a.csv")).unwrap();
     for line in text.lines().skip(1) {

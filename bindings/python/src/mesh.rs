@@ -3,16 +3,17 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use azulejo_core::mesh;
+use azulejo_core::{Interior, mesh};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
+use crate::argument::{callable, whole};
 use crate::array::{Array, line, optional, table};
 use crate::error::{invalid, raised};
 use crate::frame::{Positions, framed};
 use crate::points::Points;
 use crate::taken;
-use crate::watch::unlocked;
+use crate::watch::{Watch, unlocked};
 
 /// A triangle mesh, as it comes: open, in parts, wound in any way. Immutable; several threads may use it at once. It can be
 /// pickled.
@@ -174,6 +175,35 @@ impl Mesh {
     #[getter]
     fn area(&self) -> f64 {
         self.shared.area()
+    }
+
+    /// True if an even number of triangles shares each edge, so that the mesh has an inside, whatever the direction of its
+    /// triangles and their intersections. Vertices at one place are one.
+    #[getter]
+    fn is_closed(&self) -> bool {
+        self.shared.is_closed()
+    }
+
+    /// For each position whether it is inside the mesh: bool, shape (n,).
+    ///
+    /// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles, without rounding. In any
+    /// other mesh the generalised winding number is at least 1/2, or at most -1/2, up to .02.
+    ///
+    /// positions: shape (n, 3). threads: 0 takes one per core. progress: called with the share that is done, 0 to 1; False
+    ///     cancels.
+    #[pyo3(signature = (positions, *, threads=0, progress=None))]
+    fn contains(
+        &self,
+        py: Python<'_>,
+        positions: &Bound<'_, PyAny>,
+        #[pyo3(from_py_with = whole::threads)] threads: i128,
+        #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+    ) -> PyResult<Py<PyArray1<bool>>> {
+        let positions = Positions::read("positions", positions)?.around(self.shared.origin())?;
+        let points = positions.get()?;
+        let inside = Watch::new(py, threads, progress)?
+            .run(|context, progress| Interior::of(&self.shared).contains_each(context, points, progress))?;
+        Ok(line(py, inside))
     }
 
     /// The mesh itself, which does not change.

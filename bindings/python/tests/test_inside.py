@@ -49,6 +49,31 @@ def test_counts_orders_and_given_samples():
     assert smallest_distance(np.concatenate([given, around.positions])) >= 0.1
 
 
+def test_points_of_a_closed_mesh_are_inside():
+    mesh = azulejo.Mesh(CORNERS, FACES)
+    places = np.random.default_rng(3).uniform(-0.5, 2.5, (2000, 3)).astype(np.float32)
+    expected = ((places > 0) & (places < CORNERS[7])).all(axis=1)
+    assert mesh.is_closed and 100 < expected.sum() < 1900
+    inside = mesh.contains(places)
+    assert inside.dtype == bool and (inside == expected).all()
+    assert (mesh.contains(places, threads=2) == expected).all()
+    with pytest.raises(ValueError, match="positions"):
+        mesh.contains([[np.nan, 0, 0]])
+    assert mesh.contains(np.empty((0, 3))).shape == (0,)
+
+
+def test_the_inside_of_an_open_mesh_is_where_it_winds():
+    mesh = azulejo.Mesh(CORNERS, FACES[2:])  # without its floor
+    assert not mesh.is_closed
+    assert mesh.contains([[0.5, 0.5, 1.5], [0.5, 0.5, 2.5], [0.5, 0.5, -1.0]]).tolist() == [True, False, False]
+
+
+def test_a_far_mesh_contains_in_the_frame_of_the_caller():
+    origin = np.array([1e6 + 0.3, 0.0, -1e6 - 0.7])
+    mesh = azulejo.Mesh(CORNERS + origin, FACES)
+    assert mesh.contains(np.array([[0.5, 0.5, 1.0], [0.5, 0.5, 3.0]]) + origin).tolist() == [True, False]
+
+
 def test_a_far_mesh_keeps_its_origin():
     origin = np.array([1e6 + 0.3, 0.0, -1e6 - 0.7])
     far = azulejo.volume_sample_inside((CORNERS + origin, FACES), 0.2)

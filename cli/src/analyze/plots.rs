@@ -1,15 +1,17 @@
 //! The pictures of `analyze`, one to a file.
 
-use std::path::Path;
+use std::fs;
+use std::path::PathBuf;
 
 use azulejo::analysis::differential::{Differences, GRID_REACH, GRID_SIZE};
 use azulejo::analysis::distribution::RadialDistribution;
 use azulejo::analysis::spectrum::Periodogram;
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Domain, Progress, Result};
+use azulejo::{Context, Domain, Error, Progress, Result};
+use clap::Args;
 
 use super::plane::{NEAREST_REACH, PAIR_REACH};
-use super::{Set, picture, plane, surface};
+use super::{Set, plane, surface};
 use crate::draw::canvas::{Canvas, Rect};
 use crate::draw::palette::{COBALT, glaze_to_cobalt};
 use crate::draw::panels;
@@ -18,8 +20,13 @@ use crate::draw::spectra::{FREQUENCY_LIMIT, Windows};
 use crate::draw::stage::Stage;
 use crate::draw::surface as view;
 use crate::formats::set::{PlaneSet, SampleSet};
+use crate::output::{Output, Replacing};
 use crate::progress::watched;
 use crate::text::rounded;
+
+/// The pictures of sets of the plane, and those of samples of a mesh.
+pub const OF_PLANE: [&str; 5] = ["points.png", "spectrum.png", "radial.png", "distances.png", "nearest.png"];
+pub const OF_SURFACE: [&str; 4] = ["samples.png", "differences.png", "distances.png", "radial.png"];
 
 /// Pixels per unit of a page.
 const SCALE: f32 = 1.5;
@@ -42,6 +49,39 @@ const WIDE_PAGE: [f32; 2] = [900.0, 470.0];
 const LOWER: Rect = Rect { y: 540.0, ..WIDE };
 const DOUBLE_PAGE: [f32; 2] = [900.0, 940.0];
 
+/// Where the pictures go to.
+#[derive(Args)]
+pub struct PlotArgs {
+    /// Draw the samples, their spectrum and their distances as PNG pictures into a directory.
+    #[arg(long, value_name = "DIRECTORY")]
+    plots: Option<PathBuf>,
+    #[command(flatten)]
+    replacing: Replacing,
+}
+
+impl PlotArgs {
+    /// Makes the directory, and checks before the work whether pictures of these names can be written to it.
+    pub fn open(&self, names: &[&str]) -> Result<Option<Directory>> {
+        let Some(path) = &self.plots else { return Ok(None) };
+        fs::create_dir_all(path).map_err(|source| Error::Io { path: path.clone(), source })?;
+        let directory = Directory { path: path.clone(), replacing: self.replacing };
+        names.iter().try_for_each(|name| directory.picture(name).map(drop))?;
+        Ok(Some(directory))
+    }
+}
+
+/// The directory of the pictures.
+pub struct Directory {
+    path: PathBuf,
+    replacing: Replacing,
+}
+
+impl Directory {
+    fn picture(&self, name: &str) -> Result<Output> {
+        self.replacing.at(&self.path.join(name))
+    }
+}
+
 fn page([width, height]: [f32; 2]) -> Canvas {
     Canvas::new(width, height, (width * SCALE) as u32)
 }
@@ -51,13 +91,13 @@ pub fn plane(
     domain: &Domain,
     sets: &[Set<PlaneSet>],
     measured: &plane::Measured,
-    directory: &Path,
+    directory: &Directory,
 ) -> Result<()> {
     let points: Vec<&[[f32; 2]]> = sets.iter().map(|set| &set.loaded.points[..]).collect();
     let windows = Windows::of(domain, points[0].len());
     let mut canvas = page(SQUARE_PAGE);
     panels::samples(&mut canvas, SQUARE, &windows, points[0]);
-    canvas.write(&picture(directory, "points.png")?)?;
+    canvas.write(&directory.picture("points.png")?)?;
 
     let drawn = &points[..points.len().min(DRAWN_SPECTRA)];
     let spectrum = watched("spectrum", |progress: &Progress| {
@@ -71,18 +111,18 @@ pub fn plane(
     let remark = if count > 1 { format!("mean of {count} {what}") } else { String::new() };
     panels::spectrum(&mut canvas, SQUARE, &spectrum, &remark);
     panels::power_scale(&mut canvas, BAR);
-    canvas.write(&picture(directory, "spectrum.png")?)?;
+    canvas.write(&directory.picture("spectrum.png")?)?;
 
     let annuli: Vec<_> = measured.annuli.iter().copied().filter(|a| a.frequency <= FREQUENCY_LIMIT).collect();
     let mut canvas = page(DOUBLE_PAGE);
     panels::radial_mean(&mut canvas, WIDE, &annuli);
     panels::anisotropy(&mut canvas, LOWER, &annuli, sets.len());
-    canvas.write(&picture(directory, "radial.png")?)?;
+    canvas.write(&directory.picture("radial.png")?)?;
 
     if let Some(distribution) = &measured.distribution {
-        draw_distribution(distribution).write(&picture(directory, "distances.png")?)?;
+        draw_distribution(distribution).write(&directory.picture("distances.png")?)?;
     }
-    draw_nearest(&measured.nearest).write(&picture(directory, "nearest.png")?)
+    draw_nearest(&measured.nearest).write(&directory.picture("nearest.png")?)
 }
 
 /// A curve of densities around 1, from 0 to somewhat above its peak.
@@ -128,16 +168,16 @@ pub fn surface(
     mesh: &Mesh,
     sets: &[Set<SampleSet>],
     measured: &surface::Measured,
-    directory: &Path,
+    directory: &Directory,
 ) -> Result<()> {
     let stage = Stage::new(context, mesh, &sets[0].loaded.positions, false)?;
-    view::picture(context, name, &stage, VIEW_PIXELS, &picture(directory, "samples.png")?)?;
+    view::picture(context, name, &stage, VIEW_PIXELS, &directory.picture("samples.png")?)?;
     let Some(differences) = &measured.differences else { return Ok(()) };
-    draw_differences(differences).write(&picture(directory, "differences.png")?)?;
+    draw_differences(differences).write(&directory.picture("differences.png")?)?;
     let curve: Vec<_> = differences.radial().iter().map(|shell| [shell.distance, shell.density]).collect();
     let axis = Axis::linear("distance / mean spacing", [0.0, PAIR_REACH], 5);
-    draw_density(&curve, axis, "Radial distribution function").write(&picture(directory, "distances.png")?)?;
-    draw_power(&surface::Measured::power(differences)).write(&picture(directory, "radial.png")?)
+    draw_density(&curve, axis, "Radial distribution function").write(&directory.picture("distances.png")?)?;
+    draw_power(&surface::Measured::power(differences)).write(&directory.picture("radial.png")?)
 }
 
 fn draw_differences(differences: &Differences) -> Canvas {

@@ -42,7 +42,9 @@ impl Points {
         let instead = "azulejo draw surface draws them on their mesh";
         let set = self.format.read_plane(&self.input, instead)?;
         let domain = self.domain.of_or_around(&set);
-        draw(context, &domain, &set.points, self.picture.size, &output).map_err(|error| blame(&self.input, error))
+        draw(context, &domain, &set.points, self.picture.size, &output).map_err(|error| blame(&self.input, error))?;
+        self.picture.report(&output);
+        Ok(())
     }
 }
 

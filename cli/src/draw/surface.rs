@@ -54,7 +54,9 @@ impl Surface {
         let samples = self.format.read_samples(&self.samples, mesh.origin())?.positions;
         let name = self.mesh.file_stem().unwrap_or_default().to_string_lossy();
         let stage = Stage::new(context, &mesh, &samples, self.cutaway)?;
-        picture(context, &name, &stage, self.picture.size, &output)
+        picture(context, &name, &stage, self.picture.size, &output)?;
+        self.picture.report(&output);
+        Ok(())
     }
 }
 

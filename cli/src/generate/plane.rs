@@ -8,12 +8,13 @@ use azulejo::{Boundary, Classes, Context, Domain, Points, Progress, Result};
 use clap::Args;
 
 use super::around::Around;
-use super::{Common, Sequence, count, report};
+use super::{Common, Sequence, count, of_radius, report};
 use crate::domain::DomainArgs;
 use crate::formats::points::PointTable;
 use crate::formats::{Input, blame};
+use crate::output::Report;
 use crate::progress::watched;
-use crate::text::{grouped, rounded};
+use crate::text::grouped;
 
 /// The message about sets that are not of the plane.
 const INSTEAD: &str = "only sets of the plane can be sampled around";
@@ -88,8 +89,7 @@ struct Made {
     samples: Points<2>,
     domain: Domain,
     radius: f64,
-    /// The text of the report.
-    about: String,
+    about: Report,
 }
 
 impl Plane {
@@ -106,7 +106,7 @@ impl Plane {
         let seconds = start.elapsed().as_secs_f64();
         let table = PointTable { ranks: &samples.ranks, class_radii: &[radius], ..PointTable::of(&samples.positions) };
         output.write_points(&domain, &table)?;
-        report(&output.output, samples.len(), &about, seconds);
+        report(&output.output, samples.len(), about, seconds);
         Ok(())
     }
 
@@ -129,7 +129,7 @@ impl Plane {
         let around = self.around()?;
         let options = kdrt::Options::of(kind).domain(domain).leaf_size(self.leaf_size).seed(self.common.seed);
         let options = options.given(around.given());
-        let about = format!("radius {}", rounded(radius, 4));
+        let about = of_radius(radius);
         if let Some(window) = self.window() {
             let sample =
                 |progress: &Progress| kdrt::sample_window(context, &options, window.min, window.max, Some(progress));
@@ -186,7 +186,7 @@ impl Plane {
         let own: Vec<_> = (0..classes.count()).map(|class| classes.radius(class, class)).collect();
         let table = PointTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes, class_radii: &own };
         output.write_points(&domain, &table)?;
-        report(&output.output, set.len(), &shares(classes, &set), seconds);
+        report(&output.output, set.len(), shares(classes, &set), seconds);
         Ok(())
     }
 
@@ -198,15 +198,16 @@ impl Plane {
         let (samples, done) = watched("plane", |progress| kdrt::sample_count(context, &options, Some(progress)))?;
         // Progressive sets are maximal at their levels only.
         let is_fault = !done.is_maximal && options.levels.is_none();
-        let maximal = if is_fault { ", not maximal" } else { "" };
-        let about = format!("radius {}{maximal}", rounded(done.radius, 4));
+        let maximal = if is_fault { "not maximal" } else { "" };
+        let about = of_radius(done.radius).fact("maximal", done.is_maximal, maximal);
         Ok(Made { samples, domain, radius: done.radius, about })
     }
 }
 
 /// The number of samples of each class.
-fn shares(classes: &Classes, set: &Points<2>) -> String {
+fn shares(classes: &Classes, set: &Points<2>) -> Report {
     let mut counts = vec![0; classes.count()];
     set.classes.iter().for_each(|&class| counts[class as usize] += 1);
-    format!("by classes {}", counts.into_iter().map(grouped).collect::<Vec<_>>().join(" + "))
+    let text = counts.iter().copied().map(grouped).collect::<Vec<_>>().join(" + ");
+    Report::default().fact("classes", counts, format!("by classes {text}"))
 }

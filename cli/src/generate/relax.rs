@@ -16,7 +16,7 @@ use crate::formats::set::ClassColumn;
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, PointFile, blame};
 use crate::input;
-use crate::output::Output;
+use crate::output::{Output, Report};
 use crate::ply;
 use crate::progress::watched;
 use crate::text::{grouped, rounded};
@@ -111,10 +111,11 @@ impl Relax {
             ..PointTable::of(&relaxed)
         };
         output.write_points(&domain, &table)?;
-        let of_classes: Vec<_> = each.iter().map(|class| rounded(class.rho, 3)).collect();
-        let of_classes = if each.is_empty() { String::new() } else { format!(", ρ {}", of_classes.join(" / ")) };
-        let about = about(done.iterations, done.smallest_distance) + &of_classes;
-        report(&output.output, relaxed.len(), &about, seconds);
+        let about = about(done.iterations, done.smallest_distance);
+        let rho: Vec<_> = each.iter().map(|class| class.rho).collect();
+        let text = format!("ρ {}", rho.iter().map(|&rho| rounded(rho, 3)).collect::<Vec<_>>().join(" / "));
+        let about = if rho.is_empty() { about } else { about.fact("rho", rho, text) };
+        report(&output.output, relaxed.len(), about, seconds);
         Ok(())
     }
 
@@ -150,10 +151,11 @@ impl Relax {
         let seconds = start.elapsed().as_secs_f64();
         let class_radii = &[done.set.smallest_distance];
         output.write_points(&domain, &PointTable { class_radii, ..PointTable::of(&relaxed) })?;
-        let reached = if done.set.stopped == Stopped::Converged { "reached" } else { "not reached" };
-        let about = about(done.set.iterations, done.set.smallest_distance);
-        let about = about + &format!(", spectrum {reached}, residual {}", rounded(done.residual, 4));
-        report(&output.output, relaxed.len(), &about, seconds);
+        let is_reached = done.set.stopped == Stopped::Converged;
+        let about = about(done.set.iterations, done.set.smallest_distance)
+            .fact("reached", is_reached, if is_reached { "spectrum reached" } else { "spectrum not reached" })
+            .fact("residual", done.residual, format!("residual {}", rounded(done.residual, 4)));
+        report(&output.output, relaxed.len(), about, seconds);
         Ok(())
     }
 
@@ -174,7 +176,8 @@ impl Relax {
     /// Relaxation on a mesh.
     fn run_on(&self, context: &Context, mesh: &Path) -> Result<()> {
         let output = self.common.destination.open_surface()?;
-        let remeshed = self.remesh.as_deref().map(|path| Output::of_format("ply", path)).transpose()?;
+        let remeshed =
+            self.remesh.as_deref().map(|path| self.common.destination.writing.of_format("ply", path)).transpose()?;
         let mesh = input::mesh(mesh)?;
         let set = self.format.read_samples(&self.input, mesh.origin())?;
         if self.classes(&set.classes)?.is_some() {
@@ -200,7 +203,7 @@ impl Relax {
             class_radii: &[done.smallest_distance],
             origin: mesh.origin(),
         })?;
-        report(&output.output, relaxed.len(), &about(done.iterations, done.smallest_distance), seconds);
+        report(&output.output, relaxed.len(), about(done.iterations, done.smallest_distance), seconds);
         remeshed.map_or(Ok(()), |output| write_remeshed(context, &mesh, &relaxed, &output))
     }
 }
@@ -221,19 +224,23 @@ fn write_remeshed(context: &Context, mesh: &Mesh, samples: &Points<3>, output: &
             grouped(quality.non_manifold_vertices as usize)
         ),
     };
-    output.report(&format!(
-        "{} triangles, {kind}, Euler characteristic {}, angles {:.1} to {:.1} degrees, mean smallest {:.1}, unused samples: {}",
-        grouped(done.triangles as usize),
-        quality.euler,
-        quality.smallest_angle,
-        quality.largest_angle,
-        quality.mean_smallest_angle,
-        grouped(quality.unused_vertices as usize)
-    ));
+    let (least, mean, largest) = (quality.smallest_angle, quality.mean_smallest_angle, quality.largest_angle);
+    let unused = format!("unused samples: {}", grouped(quality.unused_vertices as usize));
+    let report = Report::default()
+        .count("triangles", done.triangles as usize, "triangles")
+        .fact("closed_manifold", quality.is_closed_manifold(), kind)
+        .fact("boundary_edges", quality.boundary_edges, "")
+        .fact("non_manifold_vertices", quality.non_manifold_vertices, "")
+        .fact("euler", quality.euler, format!("Euler characteristic {}", quality.euler))
+        .fact("angles", vec![least, largest], format!("angles {least:.1} to {largest:.1} degrees"))
+        .fact("mean_smallest_angle", mean, format!("mean smallest {mean:.1}"))
+        .fact("unused_samples", quality.unused_vertices, unused);
+    output.report(&report);
     Ok(())
 }
 
 /// The report of a relaxation.
-fn about(steps: u32, smallest_distance: f64) -> String {
-    format!("{steps} steps, smallest distance {}", rounded(smallest_distance, 4))
+fn about(steps: u32, smallest_distance: f64) -> Report {
+    let text = format!("smallest distance {}", rounded(smallest_distance, 4));
+    Report::default().fact("steps", steps, format!("{steps} steps")).fact("smallest_distance", smallest_distance, text)
 }

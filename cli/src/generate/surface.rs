@@ -8,12 +8,14 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::adaptive::{self, Density as MeshDensity, Radius, Scale};
 use azulejo::{Classes, Context, Error, Given, Points, Progress, Result, psp};
 use clap::{Args, ValueEnum};
+use serde_json::json;
 
 use super::around::Around;
 use super::attributes::{MeshFile, mask_of_text};
-use super::{Common, Sequence, count, report};
+use super::{Common, Sequence, count, covered, of_radius, report};
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{blame, read_given};
+use crate::output::Report;
 use crate::progress::watched;
 use crate::text::rounded;
 
@@ -181,13 +183,13 @@ enum Normals {
     Interpolated,
 }
 
-/// The samples, their radii if they differ, and the text that is reported about them.
+/// The samples, their radii if they differ, and what is reported about them.
 struct Made {
     samples: Points<3>,
     radii: Option<Vec<f64>>,
     /// The radius of each class, or of all samples, where `radii` has none.
     class_radii: Vec<f64>,
-    about: String,
+    about: Report,
     seconds: f64,
 }
 
@@ -229,7 +231,7 @@ impl Surface {
             class_radii: &class_radii,
             origin,
         })?;
-        report(&output.output, samples.len(), &about, seconds);
+        report(&output.output, samples.len(), about, seconds);
         Ok(())
     }
 
@@ -270,11 +272,8 @@ impl Surface {
             .cosine(self.cosine);
         let mesh = Arc::new(mesh);
         let (samples, done) = watched("surface", |progress| options.sample(context, &mesh, Some(progress)))?;
-        let covered = match done.covering_radius {
-            Some(coverage) if coverage > done.radius => format!(", covered within {}", rounded(coverage, 4)),
-            _ => String::new(),
-        };
-        let about = format!("radius {}{covered}", rounded(done.radius, 4));
+        let coverage = done.covering_radius.map(|coverage| covered(done.radius, coverage));
+        let about = of_radius(done.radius).and(coverage.unwrap_or_default());
         Ok(Made { samples, radii: None, class_radii: vec![done.radius], about, seconds: done.seconds })
     }
 
@@ -324,7 +323,9 @@ impl Surface {
         let count = |class: usize| samples.classes.iter().filter(|&&other| other as usize == class).count();
         let at_density = if attribute.is_some() { " at density 1" } else { "" };
         let each = |class: usize| format!("{} of radius {}{at_density}", count(class), rounded(own[class], 4));
-        let about = (0..own.len()).map(each).collect::<Vec<_>>().join(", ");
+        let texts = (0..own.len()).map(each).collect::<Vec<_>>().join(", ");
+        let object = |class: usize| json!({ "samples": count(class), "radius": own[class] });
+        let about = Report::default().fact("classes", (0..own.len()).map(object).collect::<Vec<_>>(), texts);
         Ok(Made { samples, radii, class_radii: own.to_vec(), about, seconds: done.seconds })
     }
 
@@ -353,12 +354,15 @@ impl Surface {
         let made = watched("surface", sample);
         let (mut made, done) = made.map_err(|error| blame_attribute(file, Some(attribute), error))?;
         let ends = |choose: fn(f64, f64) -> f64| made.radii.iter().copied().reduce(choose).unwrap_or(f64::NAN);
-        let [least, largest] = [ends(f64::min), ends(f64::max)].map(|radius| rounded(radius, 4));
-        let unit = match (scale, done.radius) {
-            (Some(_), radius) if radius > 0.0 => format!(", {} at density 1", rounded(radius, 4)),
-            _ => String::new(),
+        let ends = [ends(f64::min), ends(f64::max)];
+        let [least, largest] = ends.map(|radius| rounded(radius, 4));
+        let about = Report::default().fact("radii", ends.to_vec(), format!("radii {least} to {largest}"));
+        let about = match (scale, done.radius) {
+            (Some(_), radius) if radius > 0.0 => {
+                about.fact("radius_at_density_1", radius, format!("{} at density 1", rounded(radius, 4)))
+            }
+            _ => about,
         };
-        let about = format!("radii {least} to {largest}{unit}");
         let radii = std::mem::take(&mut made.radii);
         Ok(Made { samples: made, radii: Some(radii), class_radii: Vec::new(), about, seconds: done.seconds })
     }

@@ -9,10 +9,11 @@ use azulejo::{Boundary, Context, Domain, Error, Points, Result};
 use clap::Args;
 
 use super::around::Around;
-use super::{Common, Sequence, count, report};
+use super::{Common, Sequence, count, covered, of_radius, report};
 use crate::domain::CuboidArgs;
 use crate::formats::points::PointTable;
 use crate::formats::{blame, read_given};
+use crate::output::Report;
 use crate::progress::watched;
 use crate::text::rounded;
 
@@ -66,13 +67,13 @@ pub struct Volume {
     clearance: Option<f64>,
 }
 
-/// The samples, their domain, and the text that is reported about them.
+/// The samples, their domain, and what is reported about them.
 struct Made {
     samples: Points<3>,
     domain: Domain<3>,
     /// The radius and the covering radius.
     radii: [f64; 2],
-    about: String,
+    about: Report,
     seconds: f64,
 }
 
@@ -91,13 +92,8 @@ impl Volume {
             })?;
         let table = PointTable { ranks: &samples.ranks, class_radii: &[radius], ..PointTable::of(&samples.positions) };
         output.write_points(&domain, &table)?;
-        let covered = if covering_radius > radius {
-            format!(", covered within {}", rounded(covering_radius, 4))
-        } else {
-            String::new()
-        };
-        let about = format!("radius {}{covered}{about}", rounded(radius, 4));
-        report(&output.output, samples.len(), &about, seconds);
+        let about = of_radius(radius).and(covered(radius, covering_radius)).and(about);
+        report(&output.output, samples.len(), about, seconds);
         Ok(())
     }
 
@@ -117,7 +113,7 @@ impl Volume {
             .quotient(self.quotient.unwrap_or(options.quotient))
             .given(around.given());
         let (samples, done) = watched("volume", |progress| sample(context, &options, Some(progress)))?;
-        let (radii, about) = ([done.radius, done.covering_radius], String::new());
+        let (radii, about) = ([done.radius, done.covering_radius], Report::default());
         Ok(Made { samples, domain, radii, about, seconds: done.seconds })
     }
 
@@ -146,9 +142,10 @@ impl Volume {
         let domain = Domain { min, max, boundary: Boundary::Bounded };
         let surface = match done.surface_samples {
             0 => String::new(),
-            count => format!(", {count} on the surface"),
+            count => format!("{count} on the surface"),
         };
-        let about = format!("{surface}, open up to {} below the surface", rounded(done.depth, 4));
+        let about = Report::default().fact("surface_samples", done.surface_samples, surface);
+        let about = about.fact("depth", done.depth, format!("open up to {} below the surface", rounded(done.depth, 4)));
         let radii = [done.radius, done.covering_radius];
         Ok(Made { samples, domain, radii, about, seconds: done.seconds })
     }

@@ -39,6 +39,11 @@ impl Temporary {
         self.end(|file| file.persist(target).map(drop).map_err(|error| error.error))
     }
 
+    /// Renames the file to `target`, where nothing may be.
+    pub fn persist_new(mut self, target: &Path) -> io::Result<()> {
+        self.end(|file| file.persist_noclobber(target).map(drop).map_err(|error| error.error))
+    }
+
     fn end(&mut self, end: impl FnOnce(NamedTempFile) -> io::Result<()>) -> io::Result<()> {
         let mut files = files();
         let Some(file) = self.0.take() else { return Ok(()) };

@@ -33,9 +33,11 @@ impl Workshop {
         self.command(arguments).output().unwrap()
     }
 
-    /// Runs a command that must succeed, and say nothing on the standard error: it is not a terminal.
+    /// Runs a command that must succeed, and say nothing on the standard error: it is not a terminal. Its files replace
+    /// those of commands before it.
     pub fn succeed(&self, arguments: &[&str]) -> String {
-        let output = self.run(arguments);
+        let writes = arguments.iter().any(|argument| ["-o", "--output", "--plots"].contains(argument));
+        let output = self.run(&[arguments, if writes { &["--force"] } else { &[] }].concat());
         let errors = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && errors.is_empty(), "{arguments:?}: {errors}");
         String::from_utf8(output.stdout).unwrap()
