@@ -515,6 +515,62 @@ export function dcrRelaxClasses(
     classRelativeCoveringRadius: Float64Array;
 };
 
+/**
+ * Moves points of a torus, x y each, until their pair correlation is the one wanted: `correlation` has g(r) in bins of equal
+ * width up to `reach`, in units of d_max. A correlation that no set has ends with its residual.
+ */
+export function dcrRelaxToCorrelation(
+    positions: Numbers,
+    correlation: Numbers,
+    reach: number,
+    options?: Domain & {
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The residual at which the set has converged; default 0.005. */
+        tolerance?: number;
+        /** Used where points coincide or lie on one line only. Default 0. */
+        seed?: Seed;
+    },
+): Relaxation & {
+    /** x y of each point, in the order in which they came. */
+    positions: Float32Array;
+    /** The largest distance of a place of the domain from the set, in units of d_max. */
+    relativeCoveringRadius: number;
+    /** The root mean square of the difference of the radial power and the one wanted, both smoothed over about 1 / reach. */
+    residual: number;
+};
+
+/**
+ * The pair correlation, in `bins` bins up to `reach` (12 d_max), of sets whose radial power is constant in each of the bins of
+ * `power` from 0 to the frequency `highest`, in units of sqrt(density), and 1 beyond.
+ */
+export function dcrCorrelationOfPower(power: Numbers, highest: number, reach?: number, bins?: number): Float64Array;
+
+/**
+ * Moves points of a cuboid, x y z each, until they are evenly spread. The unit of `motion` and `rho` is the distance of
+ * neighbours in the densest packing of as many points.
+ */
+export function volumeRelax(
+    positions: Numbers,
+    options?: {
+        /** The lower corner; default [0, 0, 0]. */
+        domainMin?: readonly [number, number, number];
+        /** The upper corner; default [1, 1, 1]. */
+        domainMax?: readonly [number, number, number];
+        /** `periodic`, the default: a torus. `bounded`: with walls. */
+        boundary?: "periodic" | "bounded";
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The motion at which the set has converged; default 0.001. */
+        tolerance?: number;
+        /** Used where points coincide or are clustered only. Default 0. */
+        seed?: Seed;
+    },
+): Relaxation & {
+    /** x y z of each point, in the order in which they came. */
+    positions: Float32Array;
+};
+
 /** An image of densities, 0 or more and not 0 everywhere, in any unit, that is stretched over the domain. */
 export interface DensityImage {
     /** The pixels, row by row; the first row lies along the lower side of the domain. */

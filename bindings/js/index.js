@@ -61,6 +61,8 @@ const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolera
 const SCATTER = { ...DOMAIN, seed: 0 };
 // Of several classes, and to a density.
 const RELAX_CLASSES = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
+const RELAX_VOLUME = { domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic", maxIterations: 100, tolerance: 0.001, seed: 0 };
+const CORRELATION = { ...DOMAIN, maxIterations: 100, tolerance: 0.005, seed: 0 };
 const IMAGE = { values: null, width: 0, height: 0 };
 const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
 const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
@@ -658,6 +660,43 @@ export function dcrRelaxClasses(positions, classes, options) {
         const types = [Float32Array, Float64Array, Float64Array, Float64Array];
         const [relaxed, report, classRho, classRelativeCoveringRadius] = call.make("dcr_relax_classes", args, ...types);
         return { ...relaxation([relaxed, report]), classRho, classRelativeCoveringRadius };
+    });
+}
+
+export function dcrRelaxToCorrelation(positions, correlation, reach, options) {
+    options = withDefaults(CORRELATION, options);
+    return calling((call) => {
+        const { maxIterations, tolerance } = options;
+        const args = [
+            ...domainOf(options), whole("maxIterations", maxIterations), tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 2), reach,
+            ...call.rows("correlation", correlation, Float64Array, 1),
+        ];
+        const types = [Float32Array, Float64Array, Float64Array];
+        const [relaxed, report, [residual]] = call.make("dcr_relax_to_correlation", args, ...types);
+        return { ...relaxation([relaxed, report]), residual };
+    });
+}
+
+export function dcrCorrelationOfPower(power, highest, reach = 12, bins = 480) {
+    return calling((call) => {
+        const args = [highest, reach, whole("bins", bins), ...call.rows("power", power, Float64Array, 1)];
+        return call.make("dcr_correlation_of_power", args, Float64Array)[0];
+    });
+}
+
+export function volumeRelax(positions, options) {
+    options = withDefaults(RELAX_VOLUME, options);
+    return calling((call) => {
+        const numbers = domainOf(options, 3);
+        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const args = [
+            place, whole("maxIterations", options.maxIterations), options.tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 3),
+        ];
+        const [relaxed, report] = call.make("volume_relax", args, Float32Array, Float64Array);
+        const [iterations, stopped, motion, smallestDistance, rho] = report;
+        return { positions: relaxed, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
     });
 }
 

@@ -45,6 +45,13 @@ pub struct Cuboid {
     bounded: f64,
 }
 
+impl Cuboid {
+    pub(crate) fn domain(&self) -> Domain<3> {
+        let boundary = if self.bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
+        Domain { min: self.min, max: self.max, boundary }
+    }
+}
+
 /// The smallest distance, the mean of nearest neighbours, rho and the covering radius of a set of a cuboid; the number of pairs
 /// nearer than a radius, and of the gaps of that radius, which are none for 0.
 ///
@@ -59,10 +66,8 @@ pub unsafe extern "C" fn azulejo_space_measure(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
-    let &Cuboid { min, max, bounded } = cuboid;
     call(|context| {
-        let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
-        let domain = Domain { min, max, boundary };
+        let domain = cuboid.domain();
         let figures = figures_3d(context, &domain, points, radius, None)?;
         let gaps = if radius == 0.0 { 0 } else { coverage_3d(context, &domain, points, radius, None)?.gaps };
         Ok(Answer::default().and(vec![

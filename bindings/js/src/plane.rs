@@ -1,6 +1,6 @@
 //! Sets of the plane, and their relaxation.
 
-use azulejo::dcr::{self, Neighbourhood};
+use azulejo::dcr::{self, CorrelationOptions, Neighbourhood, PairCorrelation};
 use azulejo::kdrt::{self, CountOptions, Kind, Options, Plane, Progressive};
 use azulejo::{Boundary, Classes, Domain, Given, maximal};
 
@@ -245,6 +245,59 @@ pub unsafe extern "C" fn azulejo_dcr_relax_classes(
         let rho: Vec<f64> = each.iter().map(|class| class.rho).collect();
         let covering: Vec<f64> = each.iter().map(|class| class.relative_covering_radius).collect();
         Ok(Answer::default().and(relaxed).and(relaxation(&report)).and(rho).and(covering))
+    })
+}
+
+/// The relaxed points, the numbers of [`relaxation`], and the residual.
+///
+/// # Safety
+/// The pointers are valid for reads of so many points and bins.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_relax_to_correlation(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    max_iterations: u32,
+    tolerance: f64,
+    seed: u64,
+    points: *const [f32; 2],
+    count: usize,
+    reach: f64,
+    correlation: *const f64,
+    bins: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let (points, correlation) = unsafe { (rows(points, count), rows(correlation, bins)) };
+    call(|context| {
+        let target = PairCorrelation::new(reach, correlation)?;
+        let options = CorrelationOptions::new(domain(min_x, min_y, max_x, max_y, bounded))
+            .max_iterations(max_iterations)
+            .tolerance(tolerance)
+            .seed(seed);
+        let (relaxed, report) = dcr::relax_to_correlation(context, &options, points, &target, None)?;
+        Ok(Answer::default().and(relaxed).and(relaxation(&report.set)).and(vec![report.residual]))
+    })
+}
+
+/// The pair correlation of a radial power.
+///
+/// # Safety
+/// `power` is valid for reads of `count` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_dcr_correlation_of_power(
+    highest: f64,
+    reach: f64,
+    bins: u32,
+    power: *const f64,
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let power = unsafe { rows(power, count) };
+    call(|_| {
+        let correlation = PairCorrelation::of_power(highest, power, reach, bins as usize)?;
+        Ok(Answer::default().and(correlation.values().to_vec()))
     })
 }
 

@@ -85,6 +85,30 @@ test("sets of a cuboid are measured", () => {
     }
 });
 
+test("points of a cuboid are relaxed", () => {
+    const start = azulejo.volumeSample({ count: 400 }).positions;
+    for (const [boundary, wrap] of [["periodic", wrapped], ["bounded", (d) => d]]) {
+        const { positions, rho, smallestDistance, iterations } = azulejo.volumeRelax(start, { boundary });
+        assert.equal(positions.length, start.length);
+        assert.ok(Math.abs(smallest(positions, 3, wrap) / smallestDistance - 1) < 1e-9);
+        assert.ok(Math.abs(rho - smallestDistance / Math.cbrt(Math.SQRT2 / 400)) < 1e-9 && rho > 0.88 && iterations <= 100);
+        assert.deepEqual(azulejo.volumeRelax(start, { boundary, maxIterations: 0 }).positions, start);
+        assert.throws(() => azulejo.volumeRelax([2, 0, 0], { boundary }), /positions/);
+    }
+});
+
+test("points are relaxed to the spectrum of a step", () => {
+    const correlation = azulejo.dcrCorrelationOfPower([0], 0.5);
+    assert.equal(correlation.length, 480);
+    assert.ok(correlation.every((value) => value > -1e-3) && Math.abs(correlation.at(-1) - 1) < 0.05);
+    const start = azulejo.kdrtSample({ count: 1000 }).positions;
+    const { positions, residual } = azulejo.dcrRelaxToCorrelation(start, correlation, 12);
+    assert.ok(residual <= 0.02, `${residual}`);
+    assert.notDeepEqual(positions, start);
+    assert.throws(() => azulejo.dcrRelaxToCorrelation(start, correlation, 12, { boundary: "bounded" }), /boundary/);
+    assert.throws(() => azulejo.dcrRelaxToCorrelation(start, correlation, -1), /reach/);
+});
+
 test("counts are exact, progressive sets have ranks that their prefixes keep", () => {
     const { positions, ranks, radius } = azulejo.kdrtSample({ count: 777, order: "progressive" });
     assert.equal(positions.length, 2 * 777);
