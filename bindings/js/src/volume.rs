@@ -37,7 +37,7 @@ pub unsafe extern "C" fn azulejo_volume_sample(
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     let &VolumeOptions { radius, count, min, max, bounded, progressive, quotient } = options;
-    call(|context| {
+    call(|context, progress| {
         let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
         let amount = if count > 0.0 { Amount::Count(count as usize) } else { Amount::Radius(radius) };
         let options = Options::of(amount)
@@ -46,7 +46,7 @@ pub unsafe extern "C" fn azulejo_volume_sample(
             .order(order((progressive != 0.0).into()))
             .quotient(quotient)
             .given(given);
-        let (samples, report) = sample(context, &options, None)?;
+        let (samples, report) = sample(context, &options, progress)?;
         let report = vec![report.radius, report.covering_radius];
         Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))
     })
@@ -67,9 +67,9 @@ pub unsafe extern "C" fn azulejo_volume_relax(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
-    call(|context| {
+    call(|context, progress| {
         let options = dcr::Options::new(cuboid.domain()).max_iterations(max_iterations).tolerance(tolerance).seed(seed);
-        let (relaxed, report) = dcr::relax(context, &options, points, None)?;
+        let (relaxed, report) = dcr::relax(context, &options, points, progress)?;
         let dcr::Report { motion, smallest_distance, rho, .. } = report;
         let numbers = vec![report.iterations.into(), f64::from(report.stopped as u8), motion, smallest_distance, rho];
         Ok(Answer::default().and(relaxed).and(numbers))
