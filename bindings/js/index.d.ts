@@ -20,9 +20,9 @@ export type Seed = number | bigint;
 export function init(source?: URL | string | BufferSource | WebAssembly.Module | Response): Promise<void>;
 
 /**
- * Called with the fraction of a call that is done, from 0 to 1, many times a second or not at all, on the calling thread. If it
- * returns false, the call throws `Cancelled`, but for relaxations, which return their state, with `stopped` `cancelled`. What it
- * throws, the call throws. It must not make other calls, nor free anything.
+ * Called with the fraction of a call that is done, from 0 to 1, after each piece of its work. If it returns false, the call throws
+ * `Cancelled`, but for relaxations, which return their state, with `stopped` `cancelled`. What it throws, the call throws. It must
+ * not make other calls, nor free anything.
  */
 export type Progress = (done: number) => unknown;
 
@@ -203,6 +203,10 @@ export class Mesh extends Handle {
     constructor(positions: Numbers, indices: Numbers, options?: MeshDress);
     /** The area of all triangles that the mask does not leave out. */
     readonly area: number;
+    /** The number of its vertices. */
+    readonly vertexCount: number;
+    /** The number of its triangles. */
+    readonly triangleCount: number;
     /**
      * A mesh from the bytes of a file: OBJ, PLY, STL, OFF or GLB, by the extension of its name or else by its contents. Polygons
      * become triangles.
@@ -275,23 +279,29 @@ export interface SurfaceSamples {
     interpolatedNormals?: Float32Array;
 }
 
-/** A Poisson-disk set on a mesh, maximal unless the options say otherwise. */
-export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples & {
-    /** The radius, that of the options or the one found for the count. */
+/** What is reported of a set on a mesh. */
+export interface SurfaceReport {
+    /** The radius, that of the options or the one found for the count; of classes the smallest own radius; 0 where radii vary. */
     radius: number;
-    /** A bound of the distance of any place of the surface from the samples, where one is known. */
+    /** A bound of the distance of any place from the samples, where one is known; where radii vary, of their factor. */
     coveringRadius?: number;
-    /** The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area. */
+    /**
+     * The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area; 0 of classes and
+     * where radii vary.
+     */
     rho: number;
     /** The number of projections of patterns that were made. */
     iterations: number;
     /** The number of darts that were thrown at uncovered surface. */
     darts: number;
-    /** The share of the area that was uncovered before gaps were filled, if they were. */
+    /** The share of the area that was uncovered before gaps were filled, if they were and it is known. */
     uncoveredBefore?: number;
     /** The share that is uncovered after it. */
     uncoveredAfter?: number;
-};
+}
+
+/** A Poisson-disk set on a mesh, maximal unless the options say otherwise. */
+export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples & SurfaceReport;
 
 /** Options of sets on a mesh whose radius varies. */
 export interface VaryingOptions extends Given, Ordering, Watched {
@@ -324,18 +334,16 @@ export interface VaryingSamples extends SurfaceSamples {
 
 /**
  * A maximal set on a mesh with a radius for each vertex, interpolated on the triangles. Given samples need clearances. In
- * progressive order the rank of a sample is what the radii of all samples up to it are multiplied by.
+ * progressive order the rank of a sample is what the radii of all samples up to it are multiplied by, and the `radius` of the
+ * report is 1.
  */
-export function pspAdaptiveSample(mesh: Mesh, options: VaryingOptions, vertexRadii: Numbers): VaryingSamples & {
-    /** 0, or in progressive order what the radii were multiplied by: 1. */
-    radius: number;
-};
+export function pspAdaptiveSample(mesh: Mesh, options: VaryingOptions, vertexRadii: Numbers): VaryingSamples & SurfaceReport;
 
-/** A maximal set on a mesh whose radius follows from a density; ranks are radii at density 1. */
-export function pspAdaptiveWithDensity(mesh: Mesh, options: VaryingOptions, density: MeshDensity): VaryingSamples & {
-    /** 0, or in progressive order the radius at density 1. */
-    radius: number;
-};
+/**
+ * A maximal set on a mesh whose radius follows from a density; ranks are radii at density 1, as is the `radius` of the report in
+ * progressive order.
+ */
+export function pspAdaptiveWithDensity(mesh: Mesh, options: VaryingOptions, density: MeshDensity): VaryingSamples & SurfaceReport;
 
 /** Options of sets of several classes on a mesh. */
 export interface ClassOptions extends VaryingOptions {
@@ -349,7 +357,7 @@ export interface ClassSamples extends SurfaceSamples {
 }
 
 /** Samples of several classes on a mesh; `radii` and clearances as in kdrtSampleClasses. */
-export function pspSampleClasses(mesh: Mesh, options: ClassOptions, radii: Numbers): ClassSamples;
+export function pspSampleClasses(mesh: Mesh, options: ClassOptions, radii: Numbers): ClassSamples & SurfaceReport;
 
 /**
  * The same where the radii are multiples of a local radius, which follows from a density: two samples keep the number of the
@@ -360,7 +368,7 @@ export function pspClassesWithDensity(
     options: ClassOptions,
     radii: Numbers,
     density: MeshDensity,
-): ClassSamples & {
+): ClassSamples & SurfaceReport & {
     /** The local radius of each sample. */
     radii: Float64Array;
 };
@@ -938,6 +946,8 @@ export class Spectrum extends Handle {
             frequencyStride?: number;
         },
     );
+    /** The number of frequencies along each axis. */
+    readonly size: number;
     /** The mean of spectra of one size; noise fades with the square root of their number. */
     static mean(spectra: Iterable<Spectrum>): Spectrum;
     /** As that of spectrum(). */

@@ -409,7 +409,7 @@ function mesh(name, args, watched) {
     const made = {};
     made.pointer = calling((call) => {
         const out = call.handle();
-        [[made.area], made.report] = call.make(name, [...args(call), out], Float64Array, Float64Array);
+        [made.numbers, made.report] = call.make(name, [...args(call), out], Float64Array, Float64Array);
         return read(out);
     }, watched);
     return made;
@@ -422,16 +422,11 @@ const places = (call, { triangles, barycentrics }) => [
 
 export class Mesh extends Handle {
     constructor(positions, indices, options) {
-        if (positions === MADE) {
-            super("mesh", indices.pointer);
-            this.area = indices.area;
-            return;
-        }
-        const bare = mesh("mesh_create", (call) => [
+        const made = positions === MADE ? indices : mesh("mesh_create", (call) => [
             ...call.rows("positions", positions, Float32Array, 3), ...call.rows("indices", indices, Uint32Array, 3),
         ]);
-        super("mesh", bare.pointer);
-        this.area = bare.area;
+        super("mesh", made.pointer);
+        [this.area, this.vertexCount, this.triangleCount] = made.numbers;
         if (Object.values(withDefaults(DRESS, options)).every((array) => array === null)) return;
         try {
             return this.#with(options);
@@ -517,6 +512,11 @@ function known(figures) {
     return Object.fromEntries(Object.entries(figures).filter(([, figure]) => figure >= 0));
 }
 
+// The report of a set on a mesh.
+function reported([radius, coveringRadius, rho, iterations, darts, uncoveredBefore, uncoveredAfter]) {
+    return { radius, rho, iterations, darts, ...known({ coveringRadius, uncoveredBefore, uncoveredAfter }) };
+}
+
 export function pspSample(mesh, options) {
     options = withDefaults(SURFACE, options);
     return calling((call) => {
@@ -528,11 +528,7 @@ export function pspSample(mesh, options) {
         const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
         const [report, ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
-        const [found, coveringRadius, rho, made, darts, uncoveredBefore, uncoveredAfter] = report;
-        return {
-            ...surfaceSamples(samples), radius: found, rho, iterations: made, darts,
-            ...known({ coveringRadius, uncoveredBefore, uncoveredAfter }),
-        };
+        return { ...surfaceSamples(samples), ...reported(report) };
     }, options);
 }
 
@@ -618,8 +614,8 @@ function adaptive(mesh, options, unit, name) {
     return calling((call) => {
         const args = varying(call, mesh, options, unit, name);
         const arrays = call.make("psp_adaptive", args, ...SAMPLES, Float64Array, Float64Array);
-        const [radii, [radius]] = arrays.slice(SAMPLES.length);
-        return { ...surfaceSamples(arrays), radii, radius };
+        const [radii, report] = arrays.slice(SAMPLES.length);
+        return { ...surfaceSamples(arrays), radii, ...reported(report) };
     }, options);
 }
 
@@ -638,9 +634,10 @@ function inClasses(mesh, options, radii, unit) {
             ...varying(call, mesh, options, unit, "density"), ...call.rows("radii", radii, Float64Array, 1),
             ...call.rows("masks", options.masks, Uint32Array, 1),
         ];
-        const arrays = call.make("psp_sample_classes", args, ...SAMPLES, Uint32Array, Float64Array);
-        const [classes, localRadii] = arrays.slice(SAMPLES.length);
-        return { ...surfaceSamples(arrays), classes, ...(unit.kind === 0 ? {} : { radii: localRadii }) };
+        const arrays = call.make("psp_sample_classes", args, ...SAMPLES, Uint32Array, Float64Array, Float64Array);
+        const [classes, localRadii, report] = arrays.slice(SAMPLES.length);
+        const own = unit.kind === 0 ? {} : { radii: localRadii };
+        return { ...surfaceSamples(arrays), classes, ...own, ...reported(report) };
     }, options);
 }
 
@@ -1049,7 +1046,8 @@ function meanOf(argument, kind, Kind, all) {
 export class Spectrum extends Handle {
     constructor(positions, size, options) {
         if (positions === MADE) {
-            super("spectrum", size);
+            super("spectrum", options);
+            this.size = size;
             return;
         }
         options = withDefaults(SPECTRA, options);
@@ -1061,10 +1059,12 @@ export class Spectrum extends Handle {
             return read(out);
         }, options);
         super("spectrum", pointer);
+        this.size = size;
     }
 
     static mean(spectra) {
-        return new Spectrum(MADE, meanOf("spectra", "spectrum", Spectrum, spectra));
+        const all = [...spectra];
+        return new Spectrum(MADE, all[0]?.size, meanOf("spectra", "spectrum", Spectrum, all));
     }
 
     power() {

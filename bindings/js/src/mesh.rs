@@ -12,14 +12,14 @@ use crate::surface::answer;
 /// The object behind JavaScript's `Mesh`.
 pub struct Handle(pub Arc<Mesh>);
 
-/// The handle of a mesh, in `out`, and its area, in the answer.
+/// The handle of a mesh, in `out`; the answer has its area and its numbers of vertices and triangles.
 pub(crate) fn made(mesh: Mesh, out: &mut Option<Box<Handle>>) -> Answer {
-    let area = vec![mesh.area()];
+    let numbers = vec![mesh.area(), mesh.positions().len() as f64, mesh.triangles().len() as f64];
     *out = Some(Box::new(Handle(Arc::new(mesh))));
-    Answer::default().and(area)
+    Answer::default().and(numbers)
 }
 
-/// A mesh of triangles; the handle is in `out`, the area in the answer.
+/// A mesh of triangles: what [`made`] says.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -36,7 +36,7 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     call(|_, _| Ok(made(Mesh::new(positions.to_vec(), triangles.to_vec())?, out)))
 }
 
-/// A mesh from the bytes of a file, whose name tells the format; the handle is in `out`, the area in the answer.
+/// A mesh from the bytes of a file, whose name tells the format: what [`made`] says.
 ///
 /// # Safety
 /// The pointers are valid for reads of so many bytes.
@@ -53,8 +53,7 @@ pub unsafe extern "C" fn azulejo_mesh_parse(
     call(|_, _| Ok(made(Mesh::parse(String::from_utf8_lossy(name).as_ref(), bytes)?, out)))
 }
 
-/// A mesh with normals, a mask, or both, in place of those that it may have; what is null stays. The handle is in `out`, the area
-/// in the answer.
+/// A mesh with normals, a mask, or both, in place of those that it may have; what is null stays. What [`made`] says.
 ///
 /// # Safety
 /// The pointers are null, or to arguments of these sizes.
@@ -90,7 +89,7 @@ pub unsafe extern "C" fn azulejo_mesh_with(
     })
 }
 
-/// A mesh with its vertices moved; the handle is in `out`, the area in the answer.
+/// A mesh with its vertices moved: what [`made`] says.
 ///
 /// # Safety
 /// `positions` is valid for reads of `count` positions.

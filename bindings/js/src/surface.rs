@@ -106,7 +106,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     })
 }
 
-/// A mesh of samples; its handle is in `out`. The answer has its area; the numbers of triangles, of disputed and left out ones,
+/// A mesh of samples: what [`made`] says, and the numbers of triangles, of disputed and left out ones,
 /// of edges of the boundary, inside and of more than two triangles, of vertices that are not manifold and of unused ones; the
 /// Euler characteristic; the smallest and the largest angle, and the mean of the smallest of each triangle.
 ///

@@ -7,7 +7,7 @@ use azulejo::{Classes, Error, Result};
 use crate::answer::call;
 use crate::memory::rows;
 use crate::mesh::Handle;
-use crate::surface::answer;
+use crate::surface::{answer, numbers};
 use crate::{given, order};
 
 /// The options of a set, as JavaScript lays them out.
@@ -54,7 +54,7 @@ impl VaryingOptions {
     }
 }
 
-/// The samples of a varying radius; the radius of each, and what they are multiplied by.
+/// The samples of a varying radius; the radius of each, and [`numbers`], of which the radius is what they are multiplied by.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -86,11 +86,12 @@ pub unsafe extern "C" fn azulejo_psp_adaptive(
             .given(given);
         let (mut samples, report) = adaptive::sample(context, &mesh.0, &request, progress)?;
         let radii = std::mem::take(&mut samples.radii);
-        Ok(answer(samples).and(radii).and(vec![report.radius]))
+        Ok(answer(samples).and(radii).and(numbers(&report)))
     })
 }
 
-/// The samples of several classes; the class of each and, if there is a varying radius that is the unit of theirs, this one.
+/// The samples of several classes; the class of each and, if there is a varying radius that is the unit of theirs, this one; and
+/// [`numbers`].
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -128,8 +129,8 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
             .given(given)
             .unit(options.radius(mesh, values, texture)?);
         let masks = (!masks.is_empty()).then_some(masks);
-        let (mut samples, _) = sample_classes(context, &mesh.0, &request, &classes, masks, progress)?;
+        let (mut samples, report) = sample_classes(context, &mesh.0, &request, &classes, masks, progress)?;
         let (classes, radii) = (std::mem::take(&mut samples.classes), std::mem::take(&mut samples.radii));
-        Ok(answer(samples).and(classes).and(radii))
+        Ok(answer(samples).and(classes).and(radii).and(numbers(&report)))
     })
 }

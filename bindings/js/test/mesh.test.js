@@ -123,6 +123,12 @@ test("reports of sets on meshes", () => {
     assert.ok(uncoveredBefore > 0 && uncoveredBefore < 0.5 && uncoveredAfter >= 0 && uncoveredAfter < 1e-4);
     const some = azulejo.pspSample(mesh, { radius: 0.15, iterations: 2, maximal: false });
     assert.deepEqual([some.iterations, some.darts, some.uncoveredBefore], [2, 0, undefined]);
+    const classes = azulejo.pspSampleClasses(mesh, { seed: 1 }, [0.25, 0.15, 0.15, 0.2]);
+    const adaptive = azulejo.pspAdaptiveSample(mesh, { seed: 1 }, new Float32Array(mesh.vertexCount).fill(0.2));
+    for (const set of [classes, adaptive]) assert.ok(set.rho === 0 && set.darts >= set.triangles.length);
+    assert.deepEqual([classes.radius, adaptive.radius], [0.2, 0]);
+    const ordered = azulejo.pspAdaptiveSample(mesh, { order: "progressive" }, new Float32Array(mesh.vertexCount).fill(0.2));
+    assert.equal(ordered.radius, 1);
     const global = new azulejo.Psp(mesh, { radius: 0.15, projectors: "global", priority: "projector" });
     global.advance(1);
     const same = { radius: 0.15, iterations: 1, maximal: false, projectors: "global", priority: "projector" };
@@ -216,6 +222,7 @@ test("samples of a closed mesh become a closed mesh", () => {
         angles.push(of);
     }
     assert.ok([...sides.values()].every((runs) => runs.length === 2 && runs[0] !== runs[1]));
+    assert.deepEqual([made.vertexCount, made.triangleCount], [positions.length / 3, angles.length]);
     assert.deepEqual([report.triangles, report.innerEdges, report.boundaryEdges], [angles.length, sides.size, 0]);
     assert.equal(report.euler, positions.length / 3 - sides.size + angles.length);
     assert.deepEqual([report.euler, report.nonManifoldEdges, report.nonManifoldVertices, report.unusedVertices], [0, 0, 0, 0]);
