@@ -20,11 +20,13 @@ function nearestOf(positions, width, wrap) {
     return Array.from({ length: count }, (_, i) => Math.min(...others(i)));
 }
 
+const IMAGES = [-1, 0, 1].flatMap((x) => [-1, 0, 1].map((y) => [x, y]));
+
 // The Delaunay triangles of points of the unit torus, each once, by empty circles among all images.
 function trianglesOf(positions, reach) {
     const sites = [];
     for (let i = 0; i < positions.length; i += 2) {
-        for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) sites.push([positions[i] + x, positions[i + 1] + y, i / 2, x === 0 && y === 0]);
+        for (const [x, y] of IMAGES) sites.push([positions[i] + x, positions[i + 1] + y, i / 2, x === 0 && y === 0]);
     }
     const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
     const found = new Map();
@@ -65,7 +67,8 @@ test("points of the plane are measured as by naive code", () => {
     const sides = (of) => [0, 1, 2].map((k) => Math.hypot(of[k][0] - of[(k + 1) % 3][0], of[k][1] - of[(k + 1) % 3][1]));
     const angles = triangles.map((of) => {
         const [c, a, b] = sides(of);
-        return [[a, b, c], [b, c, a], [c, a, b]].map(([x, y, z]) => (Math.acos((y * y + z * z - x * x) / (2 * y * z)) * 180) / Math.PI);
+        const opposite = (x, y, z) => (Math.acos((y * y + z * z - x * x) / (2 * y * z)) * 180) / Math.PI;
+        return [opposite(a, b, c), opposite(b, c, a), opposite(c, a, b)];
     });
     const share = (list, is) => list.filter(is).length / list.length;
     near(figures.obtuse, share(angles, (of) => Math.max(...of) > 90));

@@ -89,7 +89,8 @@ function watchable() {
         dcrRelaxThesis: (options) => azulejo.dcrRelax(plane, { method: "thesis", maxIterations: 20, ...options }),
         dcrRelaxClasses: (options) => azulejo.dcrRelaxClasses(plane, classes, options),
         dcrRelaxDensity: (options) => azulejo.dcrRelaxDensity(plane, density, options),
-        dcrRelaxToCorrelation: (options) => azulejo.dcrRelaxToCorrelation(plane, correlation, 12, { maxIterations: 10, ...options }),
+        dcrRelaxToCorrelation: (options) =>
+            azulejo.dcrRelaxToCorrelation(plane, correlation, 12, { maxIterations: 10, ...options }),
         dcrSurfaceRelax: (options) => azulejo.dcrSurfaceRelax(mesh, set, options),
         volumeRelax: (options) => azulejo.volumeRelax(space, options),
     };

@@ -1,5 +1,6 @@
 // The package against naive oracles: all pairs, and points of a fine grid; and the sums of tests/sums.txt.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
 import { apart, covering, hasSum, interpolated, smallest, sumsTorus, torus, wrapped } from "./oracles.js";
@@ -697,4 +698,28 @@ test("masks are permutations, the same as everywhere, and refused by the names o
         assert.throws(() => azulejo.maskCreate({ width: 8, height: 8, [name]: value }), new RegExp(`${name}: `));
     }
     assert.throws(() => azulejo.maskCreate({ height: 8 }), /width: /);
+});
+
+test("every call of the Python package is here, by the same name in camel case", () => {
+    const stubs = String(readFileSync(new URL("../../python/azulejo.pyi", import.meta.url)));
+    const camel = (name) => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
+    const functions = [...stubs.matchAll(/^def (\w+)\(/gm)].map(([, name]) => camel(name));
+    assert.ok(functions.length > 35);
+    for (const name of functions) assert.equal(typeof azulejo[name], "function", name);
+    // Mesh.parse takes the bytes of the file that Mesh.load opens.
+    const others = { load: "parse" };
+    const classes = ["KdrtPlane", "Plane", "Mesh", "Psp", "Spectrum", "Differences"];
+    let methods = 0;
+    for (const [, name, body] of stubs.matchAll(/^class (\w+)\b.*:\n((?:    .*\n|\n)*)/gm)) {
+        // Reports, arrays of samples and protocols are plain objects here.
+        if (!classes.includes(name)) continue;
+        for (const [, decorator, method] of body.matchAll(/(?:    @(\w+)\n)?    def ([a-z]\w*)\(/g)) {
+            if (decorator === "property") continue;
+            const place = decorator === "staticmethod" ? azulejo[name] : azulejo[name].prototype;
+            assert.equal(typeof place[camel(others[method] ?? method)], "function", `${name}.${method}`);
+            methods++;
+        }
+    }
+    assert.ok(methods > 25, `${methods}`);
+    assert.equal(new azulejo.Cancelled().name, "Cancelled");
 });
