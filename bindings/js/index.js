@@ -179,6 +179,11 @@ class Call {
         return [pointer, array.length / width];
     }
 
+    // The pointer of numbers that the module lays out as a struct.
+    options(numbers) {
+        return this.rows("options", numbers, Float64Array, numbers.length)[0];
+    }
+
     // A place for a handle.
     handle() {
         const [pointer] = this.rows("handle", [0], Uint32Array, 1);
@@ -246,7 +251,7 @@ function planeOptions(call, options) {
     const numbers = [
         ...amount(radius, count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
     ];
-    return call.rows("options", numbers, Float64Array, numbers.length)[0];
+    return call.options(numbers);
 }
 
 function given(call, { givenPositions, givenClearances }, axes) {
@@ -372,20 +377,24 @@ class Handle {
 }
 if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.free;
 
-const read = (pointer) => new Uint32Array(wasm.memory.buffer, pointer, 1)[0];
+// Makes a call that writes a handle behind its other arguments: the handle, and the arrays of the answer.
+function created(name, args, options, ...types) {
+    return calling((call) => {
+        const out = call.handle();
+        const arrays = call.make(name, [...args(call), out], ...types);
+        return [new Uint32Array(wasm.memory.buffer, out, 1)[0], ...arrays];
+    }, options);
+}
 
 export class KdrtPlane extends Handle {
     #hasClasses;
 
     constructor(options, radii = null) {
         options = withDefaults(PLANE, options);
-        const pointer = calling((call) => {
-            if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+        if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+        const [pointer] = created("kdrt_create", (call) => {
             const own = radii === null ? [0, 0] : matrix(call, options, radii);
-            const out = call.handle();
-            const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own, out];
-            call.make("kdrt_create", args);
-            return read(out);
+            return [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own];
         }, options);
         super("kdrt", pointer, "plane");
         this.#hasClasses = radii !== null;
@@ -404,15 +413,10 @@ export class KdrtPlane extends Handle {
 // The first argument of a Mesh that exists in the module's memory.
 const MADE = Symbol("made");
 
-// The first argument of a Mesh that a call makes with these arguments behind the handle.
+// What a Mesh is made of that a call makes with these arguments before the handle.
 function mesh(name, args, watched) {
-    const made = {};
-    made.pointer = calling((call) => {
-        const out = call.handle();
-        [made.numbers, made.report] = call.make(name, [...args(call), out], Float64Array, Float64Array);
-        return read(out);
-    }, watched);
-    return made;
+    const [pointer, numbers, report] = created(name, args, watched, Float64Array, Float64Array);
+    return { pointer, numbers, report };
 }
 
 // Where samples lie on a mesh.
@@ -453,10 +457,12 @@ export class Mesh extends Handle {
     }
 
     withNormals(normals, normalIndices = null) {
+        if (normals == null) throw new TypeError("normals: not an array of numbers");
         return this.#with({ normals, normalIndices });
     }
 
     withMask(mask) {
+        if (mask == null) throw new TypeError("mask: not an array");
         return this.#with({ mask });
     }
 
@@ -525,7 +531,7 @@ export function pspSample(mesh, options) {
             radius, whole("count", count), constant("order", order, ORDERS), quotient, cosine, iterations, maximal ? 1 : 0,
             ...projection(options),
         ];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(numbers);
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
         const [report, ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
         return { ...surfaceSamples(samples), ...reported(report) };
@@ -537,7 +543,7 @@ export function volumeSample(options) {
     return calling((call) => {
         const { radius, count, order, quotient } = options;
         const numbers = [...amount(radius, count), ...domainOf(options, 3), constant("order", order, ORDERS), quotient];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(numbers);
         const types = [Float32Array, Float32Array, Float64Array];
         const args = [place, seedOf(options), ...given(call, options, 3)];
         const [positions, ranks, [found, coveringRadius]] = call.make("volume_sample", args, ...types);
@@ -553,7 +559,7 @@ export function volumeSampleInside(mesh, options) {
             ...amount(radius, count), constant("surface", surface, SURFACES), tolerance, constant("order", order, ORDERS),
             quotient,
         ];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(numbers);
         const types = [Float32Array, Float32Array, Float64Array];
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
         const [positions, ranks, report] = call.make("volume_sample_inside", args, ...types);
@@ -603,7 +609,7 @@ function varying(call, mesh, options, { kind, radius, count, size, values, textu
     const { order, quotient, cosine } = options;
     const numbers = [constant("order", order, ORDERS), quotient, cosine, kind, radius, count, ...size];
     return [
-        meshPointer(mesh), call.rows("options", numbers, Float64Array, numbers.length)[0], seedOf(options),
+        meshPointer(mesh), call.options(numbers), seedOf(options),
         ...given(call, options, 3), ...call.rows(name, values, Float32Array, 1),
         ...call.rows("texture", texture, Float32Array, 2),
     ];
@@ -728,12 +734,10 @@ class EditedSet extends Handle {
 export class Plane extends EditedSet {
     constructor(options, positions = null) {
         options = withDefaults(EDITED_PLANE, options);
-        const pointer = calling((call) => {
-            const out = call.handle();
+        const [pointer] = created("plane_create", (call) => {
             const numbers = planeOptions(call, { ...PLANE, ...options });
             const begun = [positions === null ? 0 : 1, ...call.rows("positions", positions, Float32Array, 2)];
-            call.make("plane_create", [numbers, seedOf(options), ...given(call, options, 2), ...begun, out]);
-            return read(out);
+            return [numbers, seedOf(options), ...given(call, options, 2), ...begun];
         }, options);
         super(pointer, 2);
     }
@@ -742,15 +746,10 @@ export class Plane extends EditedSet {
 export class Psp extends EditedSet {
     constructor(mesh, options) {
         options = withDefaults(GROWING, options);
-        const pointer = calling((call) => {
-            const out = call.handle();
-            const { radius, cosine } = options;
-            const args = [
-                meshPointer(mesh), radius, cosine, ...projection(options), seedOf(options), ...given(call, options, 3), out,
-            ];
-            call.make("psp_create", args);
-            return read(out);
-        });
+        const { radius, cosine } = options;
+        const [pointer] = created("psp_create", (call) => [
+            meshPointer(mesh), radius, cosine, ...projection(options), seedOf(options), ...given(call, options, 3),
+        ]);
         super(pointer, 3);
     }
 
@@ -781,8 +780,7 @@ export function dcrRelax(positions, options) {
             whole("neighbours", neighbours), constant("distribution", distribution, DISTRIBUTIONS),
             constant("visits", visits, VISITS), constant("convergence", convergence, CONVERGENCE),
         ];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
-        const args = [place, seedOf(options), ...call.rows("positions", positions, Float32Array, 2)];
+        const args = [call.options(numbers), seedOf(options), ...call.rows("positions", positions, Float32Array, 2)];
         return relaxation(call.make("dcr_relax", args, Float32Array, Float64Array));
     }, options);
 }
@@ -839,8 +837,7 @@ export function dcrCorrelationOfPower(power, highest, reach = 12, bins = 480) {
 export function volumeRelax(positions, options) {
     options = withDefaults(RELAX_VOLUME, options);
     return calling((call) => {
-        const numbers = domainOf(options, 3);
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(domainOf(options, 3));
         const args = [
             place, whole("maxIterations", options.maxIterations), options.tolerance, seedOf(options),
             ...call.rows("positions", positions, Float32Array, 3),
@@ -957,8 +954,7 @@ export function planeNearestHistogram(positions, reach, bins, options) {
 export function spaceMeasure(positions, options) {
     options = withDefaults(SPACE, options);
     return calling((call) => {
-        const numbers = domainOf(options, 3);
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(domainOf(options, 3));
         const args = [place, options.radius, ...call.rows("positions", positions, Float32Array, 3)];
         const [measured] = call.make("space_measure", args, Float64Array);
         const [
@@ -973,8 +969,7 @@ export function spaceMeasure(positions, options) {
 export function spaceCoverage(positions, radius, options) {
     options = withDefaults(CUBOID, options);
     return calling((call) => {
-        const numbers = domainOf(options, 3);
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(domainOf(options, 3));
         const args = [place, radius, ...call.rows("positions", positions, Float32Array, 3)];
         const [[coveringRadius, gaps]] = call.make("space_coverage", args, Float64Array);
         return { coveringRadius, gaps };
@@ -1032,15 +1027,11 @@ export function planeRadialDistribution(positions, reach, bins, options) {
 
 // The handle of the mean of what the caller has, of one kind.
 function meanOf(argument, kind, Kind, all) {
-    return calling((call) => {
-        const out = call.handle();
-        const pointers = [...all].map((one) => {
-            if (one instanceof Kind) return one.pointer;
-            throw new TypeError(`${argument}: not all are of the class ${Kind.name}`);
-        });
-        call.make(`${kind}_mean`, [...call.rows(argument, pointers, Uint32Array, 1), out]);
-        return read(out);
+    const pointers = [...all].map((one) => {
+        if (one instanceof Kind) return one.pointer;
+        throw new TypeError(`${argument}: not all are of the class ${Kind.name}`);
     });
+    return created(`${kind}_mean`, (call) => call.rows(argument, pointers, Uint32Array, 1))[0];
 }
 
 export class Spectrum extends Handle {
@@ -1051,13 +1042,10 @@ export class Spectrum extends Handle {
             return;
         }
         options = withDefaults(SPECTRA, options);
-        const pointer = calling((call) => {
-            const out = call.handle();
-            const array = call.rows("positions", positions, Float32Array, 2);
-            const sizes = [whole("size", size), whole("frequencyStride", options.frequencyStride)];
-            call.make("spectrum_create", [...domainOf(options), ...array, ...sizes, out]);
-            return read(out);
-        }, options);
+        const sizes = [whole("size", size), whole("frequencyStride", options.frequencyStride)];
+        const [pointer] = created("spectrum_create", (call) => [
+            ...domainOf(options), ...call.rows("positions", positions, Float32Array, 2), ...sizes,
+        ], options);
         super("spectrum", pointer);
         this.size = size;
     }
@@ -1107,16 +1095,12 @@ export class Differences extends Handle {
             return;
         }
         options = withDefaults(DIFFERENCES, options);
-        const pointer = calling((call) => {
-            const out = call.handle();
-            const { positions, normals } = samples;
-            call.make("differences_create", [
-                meshPointer(mesh), ...call.rows("positions", positions, Float32Array, 3),
-                ...call.rows("normals", normals, Float32Array, 3),
-                call.rows("direction", corner("direction", options.direction, 3), Float64Array, 3)[0], seedOf(options), out,
-            ]);
-            return read(out);
-        }, options);
+        const { positions, normals } = samples;
+        const direction = corner("direction", options.direction, 3);
+        const [pointer] = created("differences_create", (call) => [
+            meshPointer(mesh), ...call.rows("positions", positions, Float32Array, 3),
+            ...call.rows("normals", normals, Float32Array, 3), call.options(direction), seedOf(options),
+        ], options);
         super("differences", pointer);
     }
 

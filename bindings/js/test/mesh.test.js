@@ -92,6 +92,8 @@ test("masks leave triangles out", () => {
     const all = azulejo.pspSample(mesh.withMask(mask.map(() => 1)), { radius: 0.1 });
     assert.deepEqual(all, azulejo.pspSample(whole, { radius: 0.1 }));
     assert.throws(() => whole.withMask([true]), /^Error: mask: /);
+    assert.throws(() => whole.withMask(), /^TypeError: mask: /);
+    assert.throws(() => whole.withNormals(null), /^TypeError: normals: /);
 });
 
 test("sets with normals, masks, projectors and priorities have the bytes of the Rust calls", () => {
