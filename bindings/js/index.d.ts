@@ -19,6 +19,21 @@ export type Seed = number | bigint;
  */
 export function init(source?: URL | string | BufferSource | WebAssembly.Module | Response): Promise<void>;
 
+/**
+ * Called with the fraction of a call that is done, from 0 to 1, after each piece of its work. If it returns false, the call throws
+ * `Cancelled`, but for relaxations, which return their state, with `stopped` `cancelled`. What it throws, the call throws. It must
+ * not make other calls, nor free anything.
+ */
+export type Progress = (done: number) => unknown;
+
+export interface Watched {
+    /** Called with the fraction that is done; null, the default: nothing is. */
+    progress?: Progress | null;
+}
+
+/** What is thrown where a callback ended a call. */
+export class Cancelled extends Error {}
+
 /** A rectangle of the plane; its samples have `domainMin <= x < domainMax`. */
 export interface Domain {
     /** The lower corner; default [0, 0]. */
@@ -43,7 +58,7 @@ export interface Ordering {
     quotient?: number;
 }
 
-export interface PlaneOptions extends Domain, Given, Ordering {
+export interface PlaneOptions extends Domain, Given, Ordering, Watched {
     /** The smallest distance of two samples, in the units of the domain. Required, unless there is a count. */
     radius?: number;
     /** The exact number of samples; 0, the default: as many as the radius gives. */
@@ -71,6 +86,14 @@ export function kdrtSample(options: PlaneOptions): PlaneSamples & {
     isMaximal: boolean;
 };
 
+/**
+ * Makes the set of kdrtSample and passes it on part by part, in its order, instead of keeping it: for sets that memory does not
+ * hold. `visit`: called with each part, windows of at most about 50,000 samples, x y each; a domain that is too small to be tiled
+ * is one part. If it returns false, the call throws `Cancelled`; what it throws, the call throws. It must not make other calls.
+ * In no progressive order, nor to a count.
+ */
+export function kdrtStream(visit: (positions: Float32Array) => unknown, options: PlaneOptions): void;
+
 /** The samples of a plane in a window, without the rest of the plane. */
 export function kdrtSampleWindow(
     options: PlaneOptions,
@@ -88,7 +111,7 @@ export function kdrtSampleClasses(options: PlaneOptions, radii: Numbers): PlaneS
     classes: Uint32Array;
 };
 
-export interface MaximalOptions extends Domain {
+export interface MaximalOptions extends Domain, Watched {
     /** The smallest distance of two samples, in the units of the domain. Required. */
     radius: number;
     /** Another seed gives another set. Default 0. */
@@ -111,7 +134,7 @@ export interface Piece {
     max: readonly [number, number];
 }
 
-export interface KdrtMergeOptions extends Domain {
+export interface KdrtMergeOptions extends Domain, Watched {
     /** The smallest distance of two samples, that of the pieces. Required. */
     radius: number;
     /** Another seed fills the seams differently. Default 0. */
@@ -156,22 +179,77 @@ export class KdrtPlane extends Handle {
     };
 }
 
-/** Triangles in space; they need not be connected. */
+/** What a mesh may have beside its triangles. */
+export interface MeshDress {
+    /** Normals, x y z each: one for each vertex, or any number with `normalIndices`. Samples have them interpolated. */
+    normals?: Numbers | null;
+    /** Three normals of each triangle, those of its corners. */
+    normalIndices?: Numbers | null;
+    /** True or not 0 for each triangle that takes samples; others get none and need not be covered. */
+    mask?: ArrayLike<number | boolean> | null;
+}
+
+/** Where samples lie on a mesh. */
+export interface Places {
+    /** The triangle of each. */
+    triangles: Numbers;
+    /** u v of each: its position is (1 - u - v) a + u b + v c of the triangle's corners. */
+    barycentrics: Numbers;
+}
+
+/** Triangles in space; they need not be connected. A mesh does not change: its methods return others. */
 export class Mesh extends Handle {
     /** `positions`: x y z of each vertex. `indices`: three vertices of each triangle. */
-    constructor(positions: Numbers, indices: Numbers);
-    /** The area of all triangles. */
+    constructor(positions: Numbers, indices: Numbers, options?: MeshDress);
+    /** The area of all triangles that the mask does not leave out. */
     readonly area: number;
+    /** The number of its vertices. */
+    readonly vertexCount: number;
+    /** The number of its triangles. */
+    readonly triangleCount: number;
     /**
      * A mesh from the bytes of a file: OBJ, PLY, STL, OFF or GLB, by the extension of its name or else by its contents. Polygons
      * become triangles.
      */
     static parse(name: string, bytes: ArrayBuffer | Uint8Array): Mesh;
-    /** Copies of its arrays: x y z of each vertex, less the `origin`; three vertices of each triangle. */
-    arrays(): { positions: Float32Array; indices: Uint32Array; origin: Float64Array };
+    /** The mesh with normals in place of those that it may have. */
+    withNormals(normals: Numbers, normalIndices?: Numbers | null): Mesh;
+    /** The mesh with a mask in place of the one that it may have. */
+    withMask(mask: ArrayLike<number | boolean>): Mesh;
+    /** The mesh with its vertices moved: triangles and mask stay, normals go. `positions`: x y z of each vertex. */
+    deform(positions: Numbers): Mesh;
+    /** The samples at places, such as those of samples on a mesh that was deformed since; to the bit on the mesh itself. */
+    points(samples: Places): SurfaceSamples;
+    /** True if an even number of triangles shares each edge, so that the mesh has an inside. */
+    isClosed(): boolean;
+    /**
+     * For each position, x y z, 1 if it is inside the mesh, else 0: without error of a closed mesh, otherwise by the generalised
+     * winding number.
+     */
+    contains(positions: Numbers, options?: Watched): Uint8Array;
+    /**
+     * Copies of its arrays: x y z of each vertex, less the `origin`; three vertices of each triangle; and `normals`,
+     * `normalIndices` and the `mask`, 1 where samples are taken, if it has them.
+     */
+    arrays(): {
+        positions: Float32Array;
+        indices: Uint32Array;
+        origin: Float64Array;
+        normals?: Float32Array;
+        normalIndices?: Uint32Array;
+        mask?: Uint8Array;
+    };
 }
 
-export interface SurfaceOptions extends Given, Ordering {
+/** Of iterations: what projects patterns, and which candidate is kept. */
+export interface Projection {
+    /** `local`, the default: a projector for each part that faces about one direction. `global`: three for the whole mesh. */
+    projectors?: "local" | "global";
+    /** Of two candidates, `squareness`, the default, keeps the more squarely faced, `projector` that of the earlier one. */
+    priority?: "squareness" | "projector";
+}
+
+export interface SurfaceOptions extends Given, Ordering, Projection, Watched {
     /** The smallest straight distance of two samples, in the units of the mesh. Required, unless there is a count. */
     radius?: number;
     /** The exact number of samples; 0, the default: as many as the radius gives. */
@@ -197,18 +275,36 @@ export interface SurfaceSamples {
     barycentrics: Float32Array;
     /** As those of PlaneSamples. */
     ranks?: Float32Array;
+    /** If the mesh has normals: theirs, interpolated, x y z. */
+    interpolatedNormals?: Float32Array;
+}
+
+/** What is reported of a set on a mesh. */
+export interface SurfaceReport {
+    /** The radius, that of the options or the one found for the count; of classes the smallest own radius; 0 where radii vary. */
+    radius: number;
+    /** A bound of the distance of any place from the samples, where one is known; where radii vary, of their factor. */
+    coveringRadius?: number;
+    /**
+     * The radius over the distance of neighbours if as many samples stood in hexagonal order on the mesh's area; 0 of classes and
+     * where radii vary.
+     */
+    rho: number;
+    /** The number of projections of patterns that were made. */
+    iterations: number;
+    /** The number of darts that were thrown at uncovered surface. */
+    darts: number;
+    /** The share of the area that was uncovered before gaps were filled, if they were and it is known. */
+    uncoveredBefore?: number;
+    /** The share that is uncovered after it. */
+    uncoveredAfter?: number;
 }
 
 /** A Poisson-disk set on a mesh, maximal unless the options say otherwise. */
-export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples & {
-    /** The radius, that of the options or the one found for the count. */
-    radius: number;
-    /** A bound of the distance of any place of the surface from the samples, where one is known. */
-    coveringRadius?: number;
-};
+export function pspSample(mesh: Mesh, options: SurfaceOptions): SurfaceSamples & SurfaceReport;
 
 /** Options of sets on a mesh whose radius varies. */
-export interface VaryingOptions extends Given, Ordering {
+export interface VaryingOptions extends Given, Ordering, Watched {
     /** Another seed gives another set. Default 0. */
     seed?: Seed;
     /** Samples on triangles whose normals have a smaller cosine ignore each other; -1, the default: none do. */
@@ -238,18 +334,16 @@ export interface VaryingSamples extends SurfaceSamples {
 
 /**
  * A maximal set on a mesh with a radius for each vertex, interpolated on the triangles. Given samples need clearances. In
- * progressive order the rank of a sample is what the radii of all samples up to it are multiplied by.
+ * progressive order the rank of a sample is what the radii of all samples up to it are multiplied by, and the `radius` of the
+ * report is 1.
  */
-export function pspAdaptiveSample(mesh: Mesh, options: VaryingOptions, vertexRadii: Numbers): VaryingSamples & {
-    /** 0, or in progressive order what the radii were multiplied by: 1. */
-    radius: number;
-};
+export function pspAdaptiveSample(mesh: Mesh, options: VaryingOptions, vertexRadii: Numbers): VaryingSamples & SurfaceReport;
 
-/** A maximal set on a mesh whose radius follows from a density; ranks are radii at density 1. */
-export function pspAdaptiveWithDensity(mesh: Mesh, options: VaryingOptions, density: MeshDensity): VaryingSamples & {
-    /** 0, or in progressive order the radius at density 1. */
-    radius: number;
-};
+/**
+ * A maximal set on a mesh whose radius follows from a density; ranks are radii at density 1, as is the `radius` of the report in
+ * progressive order.
+ */
+export function pspAdaptiveWithDensity(mesh: Mesh, options: VaryingOptions, density: MeshDensity): VaryingSamples & SurfaceReport;
 
 /** Options of sets of several classes on a mesh. */
 export interface ClassOptions extends VaryingOptions {
@@ -263,7 +357,7 @@ export interface ClassSamples extends SurfaceSamples {
 }
 
 /** Samples of several classes on a mesh; `radii` and clearances as in kdrtSampleClasses. */
-export function pspSampleClasses(mesh: Mesh, options: ClassOptions, radii: Numbers): ClassSamples;
+export function pspSampleClasses(mesh: Mesh, options: ClassOptions, radii: Numbers): ClassSamples & SurfaceReport;
 
 /**
  * The same where the radii are multiples of a local radius, which follows from a density: two samples keep the number of the
@@ -274,7 +368,7 @@ export function pspClassesWithDensity(
     options: ClassOptions,
     radii: Numbers,
     density: MeshDensity,
-): ClassSamples & {
+): ClassSamples & SurfaceReport & {
     /** The local radius of each sample. */
     radii: Float64Array;
 };
@@ -326,10 +420,10 @@ declare class EditedSet<Samples> extends Handle {
     /** Removes given samples by their ids: 0, 1, 2 and so on for those that the set was made with. */
     removeGiven(ids: Numbers): void;
     /** Makes the set maximal again, and returns the new samples; looks only where edits can have left gaps. */
-    refill(seed?: Seed): Samples;
+    refill(seed?: Seed, options?: Watched): Samples;
 }
 
-export interface EditedPlaneOptions extends Domain, Given {
+export interface EditedPlaneOptions extends Domain, Given, Watched {
     /** The smallest distance of two samples, in the units of the domain. Required. */
     radius: number;
     /** The shortest side of the leaves that tile the domain, in radii: at least 6, default 20. */
@@ -343,7 +437,7 @@ export class Plane extends EditedSet<EditedPlaneSamples> {
     constructor(options: EditedPlaneOptions, positions?: Numbers | null);
 }
 
-export interface GrowingOptions extends Given {
+export interface GrowingOptions extends Given, Projection {
     /** The smallest straight distance of two samples, in the units of the mesh. Required. */
     radius: number;
     /** Another seed gives another set. Default 0. */
@@ -356,22 +450,16 @@ export interface GrowingOptions extends Given {
 export class Psp extends EditedSet<EditedSurfaceSamples> {
     constructor(mesh: Mesh, options: GrowingOptions);
     /** Adds samples by projections of patterns, until the first edit; returns their number. */
-    advance(iterations: number): number;
+    advance(iterations: number, options?: Watched): number;
     /** Adds samples until the set is maximal; returns their number. */
-    fill(): number;
+    fill(options?: Watched): number;
 }
 
-export interface VolumeOptions extends Given, Ordering {
+export interface VolumeOptions extends Cuboid, Given, Ordering, Watched {
     /** The smallest distance of two samples, in the units of the domain. Required, unless there is a count. */
     radius?: number;
     /** The exact number of samples; 0, the default: as many as the radius gives. Given samples then need clearances. */
     count?: number;
-    /** The lower corner of the cuboid; default [0, 0, 0]. */
-    domainMin?: readonly [number, number, number];
-    /** The upper corner; default [1, 1, 1]. Samples have `domainMin <= x < domainMax`. */
-    domainMax?: readonly [number, number, number];
-    /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
-    boundary?: "periodic" | "bounded";
     /** Another seed gives another set. Default 0. */
     seed?: Seed;
 }
@@ -388,7 +476,7 @@ export function volumeSample(options: VolumeOptions): {
     coveringRadius: number;
 };
 
-export interface VolumeInsideOptions extends Given, Ordering {
+export interface VolumeInsideOptions extends Given, Ordering, Watched {
     /** The smallest distance of two samples, in the units of the mesh. Required, unless there is a count. */
     radius?: number;
     /** The exact number of samples; 0, the default: as many as the radius gives. Given samples then need clearances. */
@@ -417,7 +505,7 @@ export function volumeSampleInside(mesh: Mesh, options: VolumeInsideOptions): {
     surfaceSamples: number;
 };
 
-export interface MaskOptions {
+export interface MaskOptions extends Watched {
     /** The pixels along x: 2 to 1,024, and up to 64 with a depth above 1. Required. */
     width: number;
     /** The pixels along y: 2 to 1,024, and up to 64 with a depth above 1. Required. */
@@ -460,15 +548,34 @@ export interface DitheredImage {
  */
 export function maskDither(ranks: Numbers, mask: MaskOptions, image: DitheredImage, levels?: number): Uint8Array;
 
-export interface RelaxOptions extends Domain {
+/** The options from `conflictRadius` on are of the thesis's method, and refused of the other one. */
+export interface RelaxOptions extends Domain, Watched {
     /** `delaunay`, the default: neighbours keep their distance and close holes. `nearest`: they only repel. */
     neighbourhood?: "delaunay" | "nearest";
+    /** `momentum`, the default, or `thesis`: the algorithm of the thesis, chapter 4. */
+    method?: "momentum" | "thesis";
     /** The largest number of steps; default 100. */
     maxIterations?: number;
-    /** The motion at which the set has converged; default 0.001. */
-    tolerance?: number;
+    /** The motion at which the set has converged; by default 0.001, of the thesis 0.02, with nearest neighbours 0.005. */
+    tolerance?: number | null;
     /** Used where points coincide only. Default 0. */
     seed?: Seed;
+    /** Neighbours closer than this, in units of d_max, repel each other; default 0.95. */
+    conflictRadius?: number | null;
+    /** Delaunay neighbours farther apart than this, in units of d_max, attract each other; default 1.05. */
+    attractionRadius?: number | null;
+    /** The displacement by a tension of 1, in units of d_max; default 0.05. */
+    step?: number | null;
+    /** The factor of `step` from each step to the next; default 1. */
+    decay?: number | null;
+    /** The number of nearest neighbours; default 6. */
+    neighbours?: number | null;
+    /** The division of an edge's tension between its ends; default activeness. */
+    distribution?: "activeness" | "average" | "dominant" | "zero" | "eighty_twenty" | null;
+    /** The ends from which an edge is visited; default both_ends. */
+    visits?: "both_ends" | "one_end" | null;
+    /** The test of convergence; default motion. */
+    convergence?: "motion" | "variance" | null;
 }
 
 export interface Relaxation {
@@ -496,7 +603,7 @@ export function dcrRelax(positions: Numbers, options?: RelaxOptions): Relaxation
 export function dcrRelaxClasses(
     positions: Numbers,
     classes: Numbers,
-    options?: Domain & {
+    options?: Domain & Watched & {
         /** The largest number of steps; default 100. */
         maxIterations?: number;
         /** The motion at which the set has converged; default 0.001. */
@@ -515,6 +622,68 @@ export function dcrRelaxClasses(
     classRelativeCoveringRadius: Float64Array;
 };
 
+/**
+ * Moves points of a torus, x y each, until their pair correlation is the one wanted: `correlation` has g(r) in bins of equal
+ * width up to `reach`, in units of d_max. A correlation that no set has ends with its residual.
+ */
+export function dcrRelaxToCorrelation(
+    positions: Numbers,
+    correlation: Numbers,
+    reach: number,
+    options?: Domain & Watched & {
+        /** The largest number of steps; default 100. */
+        maxIterations?: number;
+        /** The residual at which the set has converged; default 0.005. */
+        tolerance?: number;
+        /** Used where points coincide or lie on one line only. Default 0. */
+        seed?: Seed;
+    },
+): Relaxation & {
+    /** x y of each point, in the order in which they came. */
+    positions: Float32Array;
+    /** The largest distance of a place of the domain from the set, in units of d_max. */
+    relativeCoveringRadius: number;
+    /** The root mean square of the difference of the radial power and the one wanted, both smoothed over about 1 / reach. */
+    residual: number;
+};
+
+/**
+ * The pair correlation, in `bins` bins up to `reach` (12 d_max), of sets whose radial power is constant in each of the bins of
+ * `power` from 0 to the frequency `highest`, in units of sqrt(density), and 1 beyond.
+ */
+export function dcrCorrelationOfPower(power: Numbers, highest: number, reach?: number, bins?: number): Float64Array;
+
+/** A cuboid; its points have `domainMin <= x < domainMax`. */
+export interface Cuboid {
+    /** The lower corner; default [0, 0, 0]. */
+    domainMin?: readonly [number, number, number];
+    /** The upper corner; default [1, 1, 1]. */
+    domainMax?: readonly [number, number, number];
+    /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
+    boundary?: "periodic" | "bounded";
+}
+
+export interface VolumeRelaxOptions extends Cuboid, Watched {
+    /** The largest number of steps; default 100. */
+    maxIterations?: number;
+    /** The motion at which the set has converged; default 0.001. */
+    tolerance?: number;
+    /** Used where points coincide or are clustered only. Default 0. */
+    seed?: Seed;
+}
+
+/**
+ * Moves points of a cuboid, x y z each, until they are evenly spread. The unit of `motion` and `rho` is the distance of
+ * neighbours in the densest packing of as many points.
+ */
+export function volumeRelax(
+    positions: Numbers,
+    options?: VolumeRelaxOptions,
+): Relaxation & {
+    /** x y z of each point, in the order in which they came. */
+    positions: Float32Array;
+};
+
 /** An image of densities, 0 or more and not 0 everywhere, in any unit, that is stretched over the domain. */
 export interface DensityImage {
     /** The pixels, row by row; the first row lies along the lower side of the domain. */
@@ -529,7 +698,7 @@ export interface DensityImage {
 export function dcrScatter(
     density: DensityImage,
     count: number,
-    options?: Domain & {
+    options?: Domain & Watched & {
         /** Another seed gives other points. Default 0. */
         seed?: Seed;
     },
@@ -539,7 +708,7 @@ export function dcrScatter(
 export function dcrRelaxDensity(
     positions: Numbers,
     density: DensityImage,
-    options?: Domain & {
+    options?: Domain & Watched & {
         /** The largest number of steps; default 100. */
         maxIterations?: number;
         /** The motion at which the set has converged; default 0.001. */
@@ -554,34 +723,72 @@ export function dcrRelaxDensity(
     relativeCoveringRadius: number;
 };
 
+export interface SurfaceRelaxOptions extends Watched {
+    /** The largest number of steps; default 100. */
+    maxIterations?: number;
+    /** The motion at which the set has converged; default 0.0005. */
+    tolerance?: number;
+    /** Used where samples coincide only. Default 0. */
+    seed?: Seed;
+}
+
 /** Moves samples over their mesh until they are evenly spread. */
 export function dcrSurfaceRelax(
     mesh: Mesh,
-    samples: { triangles: Numbers; barycentrics: Numbers },
-    options?: {
-        /** The largest number of steps; default 100. */
-        maxIterations?: number;
-        /** The motion at which the set has converged; default 0.0005. */
-        tolerance?: number;
-        /** Used where samples coincide only. Default 0. */
-        seed?: Seed;
-    },
+    samples: Places,
+    options?: SurfaceRelaxOptions,
 ): SurfaceSamples & Relaxation;
+
+/**
+ * Makes a mesh whose vertices are samples of another mesh, spread about evenly as those of maximal and relaxed sets are:
+ * remeshing, to more triangles or to fewer. No edge has more than two triangles, and two at an edge are wound alike. Samples that
+ * resolve the features of a closed surface give a closed surface of the same topology; otherwise there are holes.
+ */
+export function dcrRemesh(mesh: Mesh, samples: Places, options?: Watched): {
+    /** Its vertex i is sample i. */
+    mesh: Mesh;
+    /** The number of triangles. */
+    triangles: number;
+    /** Triangles that are not in the Delaunay stars of all three corners. */
+    disputed: number;
+    /** Triangles of stars that are not in the mesh, because they do not go with others. */
+    leftOut: number;
+    /** Edges with one triangle: the boundary. */
+    boundaryEdges: number;
+    /** Edges with two triangles. */
+    innerEdges: number;
+    /** Edges with more than two: always 0. */
+    nonManifoldEdges: number;
+    /** Samples whose triangles are not all connected by edges at the sample. */
+    nonManifoldVertices: number;
+    /** Samples without a triangle. */
+    unusedVertices: number;
+    /** Vertices - edges + triangles, without unused vertices: 2 of a sphere, 0 of a torus, 1 of a disk. */
+    euler: number;
+    /** The smallest angle of all triangles, in degrees. */
+    smallestAngle: number;
+    /** The largest angle of all triangles, in degrees. */
+    largestAngle: number;
+    /** The mean over all triangles of their smallest angle, in degrees. */
+    meanSmallestAngle: number;
+};
+
+export interface ThinOptions extends Watched {
+    /** The smallest distance of selected points; 0, the default, sets none. */
+    radius?: number;
+    /** The number of points to select; 0, the default, sets no number. */
+    count?: number;
+    /** `progressive`: farthest-first. Default `any`: that of the cloud. */
+    order?: "any" | "progressive";
+    /** Selects the first point of the progressive order. Default 0. */
+    seed?: Seed;
+}
 
 /** Points of a cloud, 2 or 3 numbers each, that are far from each other and near to all others. */
 export function thin(
     positions: Numbers,
     dimensions: 2 | 3,
-    options: {
-        /** The smallest distance of selected points; 0, the default, sets none. */
-        radius?: number;
-        /** The number of points to select; 0, the default, sets no number. */
-        count?: number;
-        /** `progressive`: farthest-first. Default `any`: that of the cloud. */
-        order?: "any" | "progressive";
-        /** Selects the first point of the progressive order. Default 0. */
-        seed?: Seed;
-    },
+    options: ThinOptions,
 ): {
     /** The selected points. */
     indices: Uint32Array;
@@ -596,15 +803,65 @@ export interface Spacing {
     coveringRadius: number;
 }
 
-/** Measures points of the plane, x y each. */
-export function planeMeasure(positions: Numbers, options?: Domain): Spacing;
+/** What is measured of points of the plane. */
+export interface PlaneFigures extends Spacing {
+    /** The number of points. */
+    count: number;
+    /** The mean distance of a point to its nearest neighbour. */
+    meanDistance: number;
+    /** d_max, the distance of neighbours if as many points stood in hexagonal order. */
+    hexagonalDistance: number;
+    /** The smallest distance in units of d_max. */
+    rho: number;
+    /** The bond order psi6: 1 of a hexagonal lattice. */
+    bondOrder: number;
+    /** The number of Delaunay triangles. */
+    triangles: number;
+    /** The share of them that is obtuse. */
+    obtuse: number;
+    /** The share of them with an angle below 30 degrees. */
+    below30Degrees: number;
+    /** The share of all angles that is below 30 degrees. */
+    anglesBelow30Degrees: number;
+    /** The mean length of their edges. */
+    edgeMean: number;
+    /** The variance of the lengths over the square of their mean. */
+    edgeVariation: number;
+    /** The variance of the areas over the square of their mean. */
+    areaVariation: number;
+    /** The share of triangles whose area is more than 4 standard deviations from the mean. */
+    beyond4Sigma: number;
+}
+
+/** Measures points of the plane, x y each: spacing, covering radius, bond order and Delaunay triangles. */
+export function planeMeasure(positions: Numbers, options?: Domain & Watched): PlaneFigures;
+
+/** The smallest distance of points of the plane alone, x y each; Infinity for less than two. */
+export function planeSmallestDistance(positions: Numbers, options?: Domain & Watched): number;
+
+/** The covering radius of points of the plane alone, x y each: exact, by the Voronoi diagram. */
+export function planeCoveringRadius(positions: Numbers, options?: Domain & Watched): number;
+
+/** The number of points whose nearest neighbour is in each of `bins` bins of equal width from 0 to `reach`, in units of d_max. */
+export function planeNearestHistogram(
+    positions: Numbers,
+    reach: number,
+    bins: number,
+    options?: Domain & Watched,
+): Uint32Array;
 
 /** What is measured of points of a cuboid. */
 export interface SpaceSpacing extends Spacing {
+    /** The number of points. */
+    count: number;
     /** The mean distance of a point to its nearest neighbour. */
     meanDistance: number;
-    /** The smallest distance over that of neighbours in the densest packing of as many points. */
+    /** The distance of neighbours if as many points stood in the densest packing. */
+    packedDistance: number;
+    /** The smallest distance in units of packedDistance. */
     rho: number;
+    /** The covering radius in units of packedDistance. */
+    relativeCoveringRadius: number;
     /** The number of pairs that are nearer to each other than `radius`. */
     conflicts: number;
     /** The number of gaps that balls of `radius` leave: 0 for a maximal set. */
@@ -614,20 +871,14 @@ export interface SpaceSpacing extends Spacing {
 /** Measures points of a cuboid, x y z each. */
 export function spaceMeasure(
     positions: Numbers,
-    options?: {
+    options?: Cuboid & Watched & {
         /** Counts conflicts and gaps of this radius; default 0: none. */
         radius?: number;
-        /** The lower corner; default [0, 0, 0]. */
-        domainMin?: readonly [number, number, number];
-        /** The upper corner; default [1, 1, 1]. */
-        domainMax?: readonly [number, number, number];
-        /** `periodic`, the default: a torus. `bounded`: nothing lies outside. */
-        boundary?: "periodic" | "bounded";
     },
 ): SpaceSpacing;
 
 /** Measures positions on a mesh, x y z each; distances are straight. */
-export function meshMeasure(mesh: Mesh, positions: Numbers): Spacing;
+export function meshMeasure(mesh: Mesh, positions: Numbers, options?: Watched): Spacing;
 
 export interface Coverage {
     /** The distance from the set of the place that is farthest from it. */
@@ -637,20 +888,23 @@ export interface Coverage {
 }
 
 /** The gaps of points of the plane, x y each, for a radius: 0 of a maximal set. */
-export function planeCoverage(positions: Numbers, radius: number, options?: Domain): Coverage;
+export function planeCoverage(positions: Numbers, radius: number, options?: Domain & Watched): Coverage;
+
+/** The gaps of points of a cuboid, x y z each, for a radius; places within half of it of each other are of one gap. */
+export function spaceCoverage(positions: Numbers, radius: number, options?: Cuboid & Watched): Coverage;
 
 /** The gaps of positions on a mesh, x y z each, for a radius. */
-export function meshCoverage(mesh: Mesh, positions: Numbers, radius: number): Coverage;
+export function meshCoverage(mesh: Mesh, positions: Numbers, radius: number, options?: Watched): Coverage;
 
 /** The smallest straight distance of positions in space, x y z each; Infinity for less than two. */
-export function spaceSmallestDistance(positions: Numbers): number;
+export function spaceSmallestDistance(positions: Numbers, options?: Watched): number;
 
 /** The share of the area of a mesh that is farther than a radius from positions, by random probes. */
 export function meshUncoveredFraction(
     mesh: Mesh,
     positions: Numbers,
     radius: number,
-    options?: {
+    options?: Watched & {
         /** The number of probes; default 100,000. */
         probes?: number;
         /** Other seeds give other probes. Default 0. */
@@ -662,12 +916,90 @@ export function meshUncoveredFraction(
  * The radial distribution function of points of the plane, in `bins` bins from 0 to `reach`, in units of d_max: 1 where pairs
  * are as frequent as of random points.
  */
-export function planeRadialDistribution(positions: Numbers, reach: number, bins: number, options?: Domain): Float64Array;
+export function planeRadialDistribution(
+    positions: Numbers,
+    reach: number,
+    bins: number,
+    options?: Domain & Watched,
+): Float64Array;
+
+/** An annulus of a spectrum. */
+export interface Annulus {
+    /** Its mean frequency, in units of sqrt(density). */
+    frequency: number;
+    /** The mean power: 1 is that of random points. */
+    power: number;
+    /** The variance of the power over the square of its mean. */
+    anisotropy: number;
+    /** The number of frequencies. */
+    count: number;
+}
+
+/** The power spectrum of points of the plane, kept to be measured, and to be averaged with others. */
+export class Spectrum extends Handle {
+    /** `positions`: x y each. `size`: the number of frequencies along each axis, 2 to 4096. */
+    constructor(
+        positions: Numbers,
+        size: number,
+        options?: Domain & Watched & {
+            /** 1, the default, takes all frequencies; k, up to 4096, every k-th along both axes. */
+            frequencyStride?: number;
+        },
+    );
+    /** The number of frequencies along each axis. */
+    readonly size: number;
+    /** The mean of spectra of one size; noise fades with the square root of their number. */
+    static mean(spectra: Iterable<Spectrum>): Spectrum;
+    /** As that of spectrum(). */
+    power(): Float32Array;
+    /** The annuli of a width in units of sqrt(density), by default 0.05. */
+    radial(width?: number): Annulus[];
+    /** Its figures: `low` and `high` are the range of frequencies for contrast and peak, `width` is that of the annuli. */
+    measure(low: number, high: number, width: number): {
+        /** The distance of neighbouring frequencies along both axes, in units of sqrt(density). */
+        frequencyStep: [number, number];
+        /** Below this frequency there is almost no power (Heck et al. 2013), unless the spectrum is too small to tell. */
+        effectiveNyquist?: number;
+        /** The variation of the power above it, likewise. */
+        oscillation?: number;
+        /** The variation of the power within annuli. */
+        contrast: number;
+        /** The highest power in the range over the mean of its annulus; 0 for none. */
+        peak: number;
+        /** Where that is. */
+        peakFrequency: [number, number];
+    };
+}
+
+/**
+ * The distribution p(d) of the differences of all pairs of samples on a mesh (Wei and Wang 2011), which takes the place of the
+ * spectrum. Lengths are in mean spacings, sqrt(area / count).
+ */
+export class Differences extends Handle {
+    constructor(
+        mesh: Mesh,
+        samples: { positions: Numbers; normals: Numbers },
+        options?: Watched & {
+            /** Its projection on the tangent plane is the x axis of the differences; default [1, 0, 0]. */
+            direction?: readonly [number, number, number];
+            /** Other seeds give other random points that pairs are compared with. Default 0. */
+            seed?: Seed;
+        },
+    );
+    /** The differences of sets of one kind together; noise fades with the square root of their number. */
+    static mean(differences: Iterable<Differences>): Differences;
+    /** p(d), 128 rows of 128 numbers, from -4 to 4 along both axes. */
+    density(): Float64Array;
+    /** The radial mean of p(d), 512 numbers from 0 to 8. */
+    radial(): Float64Array;
+    /** The radial mean of the power at frequencies from -32 to 32, in units of one over the mean spacing; 1 of random points. */
+    power(frequencies: Numbers): Float64Array;
+}
 
 /** The power spectrum of points of the plane. */
 export function spectrum(
     positions: Numbers,
-    options?: Domain & {
+    options?: Domain & Watched & {
         /** Frequencies along each axis, an even number; default 256. */
         size?: number;
         /** The width of the annuli, in units of sqrt(density); default 0.02. */
@@ -678,5 +1010,5 @@ export function spectrum(
     /** size rows of size powers; frequency 0 is at row and column size / 2. 1 is that of random points. */
     power: Float32Array;
     /** The radial mean: `frequency` in units of sqrt(density). */
-    annuli: { frequency: number; power: number; anisotropy: number; count: number }[];
+    annuli: Annulus[];
 };

@@ -4,6 +4,36 @@
 
 let wasm;
 
+// The call that runs: its callbacks, and what one of them threw.
+let running = null;
+
+// Whether a callback lets the call go on: anything but false does. What it throws must not unwind the module.
+function ask(callback, argument) {
+    if (!callback) return 1;
+    try {
+        return callback(argument()) === false ? 0 : 1;
+    } catch (error) {
+        running.thrown = { error };
+        return 0;
+    }
+}
+
+const IMPORTS = {
+    azulejo: {
+        progress: (done) => ask(running.progress, () => done),
+        visit: (pointer, count) =>
+            ask(running.visit, () => new Float32Array(wasm.memory.buffer, pointer, 2 * count).slice()),
+    },
+};
+
+/** What a call throws that a callback has ended. */
+export class Cancelled extends Error {
+    constructor() {
+        super("the call was cancelled");
+        this.name = "Cancelled";
+    }
+}
+
 /** Loads the module, once. `source`: its bytes, a compiled module, a Response or an address; by default azulejo.wasm. */
 export async function init(source = new URL("azulejo.wasm", import.meta.url)) {
     if (wasm) return;
@@ -16,56 +46,69 @@ export async function init(source = new URL("azulejo.wasm", import.meta.url)) {
         if (!source.ok) throw new Error(`source: ${source.url} answers ${source.status}`);
         source = await source.arrayBuffer();
     }
-    const made = await WebAssembly.instantiate(source, {});
+    const made = await WebAssembly.instantiate(source, IMPORTS);
     wasm = (made.instance ?? made).exports;
 }
 
 const BOUNDED = { periodic: 0, bounded: 1 };
 const ORDERS = { any: 0, progressive: 1 };
 const SURFACES = { open: 0, first: 1 };
+const PROJECTORS = { local: 0, global: 1 };
+const PRIORITIES = { squareness: 0, projector: 1 };
 const NEIGHBOURHOODS = { delaunay: 0, nearest: 1 };
+const METHODS = { momentum: 0, thesis: 1 };
+const DISTRIBUTIONS = { activeness: 0, average: 1, dominant: 2, zero: 3, eighty_twenty: 4 };
+const VISITS = { both_ends: 0, one_end: 1 };
+const CONVERGENCE = { motion: 0, variance: 1 };
 const STOPPED = ["converged", "steps", "cancelled"];
 const DEFAULT_QUOTIENT = 2 ** (1 / 8);
 
-const DOMAIN = { domainMin: [0, 0], domainMax: [1, 1], boundary: "periodic" };
-const PLANE = {
-    ...DOMAIN, radius: 0, count: 0, leafSize: 20, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, coarsest: Infinity,
-    givenPositions: null, givenClearances: null,
-};
+const WATCHED = { progress: null };
+const DOMAIN = { ...WATCHED, domainMin: [0, 0], domainMax: [1, 1], boundary: "periodic" };
+const CUBOID = { ...WATCHED, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic" };
+const GIVEN = { givenPositions: null, givenClearances: null };
+const ORDERING = { order: "any", quotient: DEFAULT_QUOTIENT };
+const PLANE = { ...DOMAIN, ...GIVEN, ...ORDERING, radius: 0, count: 0, leafSize: 20, seed: 0, coarsest: Infinity };
+const PROJECTION = { projectors: "local", priority: "squareness" };
 const SURFACE = {
-    radius: 0, count: 0, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, cosine: -1, iterations: -1, maximal: true,
-    givenPositions: null, givenClearances: null,
+    ...WATCHED, ...GIVEN, ...ORDERING, ...PROJECTION, radius: 0, count: 0, seed: 0, cosine: -1, iterations: -1, maximal: true,
 };
-const VARYING = {
-    seed: 0, order: "any", quotient: DEFAULT_QUOTIENT, cosine: -1, givenPositions: null, givenClearances: null,
-};
+const VARYING = { ...WATCHED, ...GIVEN, ...ORDERING, seed: 0, cosine: -1 };
 const CLASSES = { ...VARYING, masks: null };
 const DENSITY = { values: null, radius: 0, count: 0, width: 0, height: 0, texture: null };
-const EDITED_PLANE = { ...DOMAIN, radius: 0, leafSize: 20, seed: 0, givenPositions: null, givenClearances: null };
-const GROWING = { radius: 0, seed: 0, cosine: -1, givenPositions: null, givenClearances: null };
+const EDITED_PLANE = { ...DOMAIN, ...GIVEN, radius: 0, leafSize: 20, seed: 0 };
+const GROWING = { ...GIVEN, ...PROJECTION, radius: 0, seed: 0, cosine: -1 };
 const REGION = { centre: null, radius: null, min: null, max: null };
-const VOLUME = {
-    radius: 0, count: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic", seed: 0, order: "any",
-    quotient: DEFAULT_QUOTIENT, givenPositions: null, givenClearances: null,
-};
-const SPACE = { radius: 0, domainMin: [0, 0, 0], domainMax: [1, 1, 1], boundary: "periodic" };
-const INSIDE = {
-    radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0, order: "any", quotient: DEFAULT_QUOTIENT,
-    givenPositions: null, givenClearances: null,
-};
+const VOLUME = { ...CUBOID, ...GIVEN, ...ORDERING, radius: 0, count: 0, seed: 0 };
+const SPACE = { ...CUBOID, radius: 0 };
+const INSIDE = { ...WATCHED, ...GIVEN, ...ORDERING, radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0 };
 const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
 const MERGE = { ...DOMAIN, radius: 0, seed: 0, maximalPieces: false };
 const PIECE = { positions: null, min: [0, 0], max: [1, 1] };
-const MASK = { width: 0, height: 0, depth: 1, channels: 1, seed: 0, sigma: 1.5 };
-const RELAX = { ...DOMAIN, neighbourhood: "delaunay", maxIterations: 100, tolerance: 0.001, seed: 0 };
+const MASK = { ...WATCHED, width: 0, height: 0, depth: 1, channels: 1, seed: 0, sigma: 1.5 };
+const DRESS = { normals: null, normalIndices: null, mask: null };
+// Of the thesis's method, and their defaults there.
+const THESIS = {
+    conflictRadius: 0.95, attractionRadius: 1.05, step: 0.05, decay: 1, neighbours: 6, distribution: "activeness",
+    visits: "both_ends", convergence: "motion",
+};
+const RELAX = {
+    ...DOMAIN, neighbourhood: "delaunay", method: "momentum", maxIterations: 100, tolerance: null, seed: 0,
+    ...Object.fromEntries(Object.keys(THESIS).map((name) => [name, null])),
+};
 const SCATTER = { ...DOMAIN, seed: 0 };
 // Of several classes, and to a density.
 const RELAX_CLASSES = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
+const RELAX_VOLUME = { ...CUBOID, maxIterations: 100, tolerance: 0.001, seed: 0 };
+const CORRELATION = { ...DOMAIN, maxIterations: 100, tolerance: 0.005, seed: 0 };
 const IMAGE = { values: null, width: 0, height: 0 };
 const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
-const RELAX_SURFACE = { maxIterations: 100, tolerance: 0.0005, seed: 0 };
-const THIN = { radius: 0, count: 0, order: "any", seed: 0 };
+const RELAX_SURFACE = { ...WATCHED, maxIterations: 100, tolerance: 0.0005, seed: 0 };
+const THIN = { ...WATCHED, radius: 0, count: 0, order: "any", seed: 0 };
+const SPECTRA = { ...DOMAIN, frequencyStride: 1 };
 const SPECTRUM = { ...DOMAIN, size: 256, width: 0.02 };
+const DIFFERENCES = { ...WATCHED, direction: [1, 0, 0], seed: 0 };
+const PROBES = { ...WATCHED, probes: 100_000, seed: 0 };
 
 // The caller's options over the defaults. Names and types that no option has are refused.
 function withDefaults(defaults, options = {}) {
@@ -73,6 +116,9 @@ function withDefaults(defaults, options = {}) {
         if (!(name in defaults)) throw new TypeError(`${name}: no such option`);
         if (typeof defaults[name] === "number" && typeof value !== "number" && typeof value !== "bigint") {
             throw new TypeError(`${name}: ${value} is not a number`);
+        }
+        if (name === "progress" && typeof value !== "function" && value != null) {
+            throw new TypeError("progress: not a function");
         }
     }
     const all = { ...defaults };
@@ -106,6 +152,9 @@ function domainOf({ domainMin, domainMax, boundary }, axes = 2) {
     return [...corners, constant("boundary", boundary, BOUNDED)];
 }
 
+// What a call of the module returns.
+const [SUCCEEDED, CANCELLED] = [1, 2];
+
 // Arguments in the module's memory, freed with the answer when the call has been made.
 class Call {
     #taken = [];
@@ -130,6 +179,11 @@ class Call {
         return [pointer, array.length / width];
     }
 
+    // The pointer of numbers that the module lays out as a struct.
+    options(numbers) {
+        return this.rows("options", numbers, Float64Array, numbers.length)[0];
+    }
+
     // A place for a handle.
     handle() {
         const [pointer] = this.rows("handle", [0], Uint32Array, 1);
@@ -138,9 +192,12 @@ class Call {
 
     // Makes a call; its answer as arrays of these types.
     make(name, args, ...types) {
-        const succeeded = wasm[`azulejo_${name}`](...args);
+        const outcome = wasm[`azulejo_${name}`](...args);
         try {
-            if (!succeeded) throw new Error(inJavaScript(new TextDecoder().decode(answer(0, Uint8Array))));
+            // Relaxation returns its state when it is cancelled.
+            if (running.thrown) throw running.thrown.error;
+            if (outcome === CANCELLED) throw new Cancelled();
+            if (outcome !== SUCCEEDED) throw new Error(inJavaScript(new TextDecoder().decode(answer(0, Uint8Array))));
             return types.map((Type, index) => answer(index, Type));
         } finally {
             wasm.azulejo_answer_free();
@@ -165,12 +222,20 @@ function inJavaScript(message) {
     return [name, ...rest].join(":");
 }
 
-function calling(body) {
+// Callbacks must not call the module: what the running call uses might change or be freed.
+function mustNotRun(what) {
+    if (running) throw new Error(`${what}: another call runs, whose callback this is`);
+}
+
+function calling(body, { progress = null, visit = null } = {}) {
     if (!wasm) throw new Error("init: the module is not loaded; await init() first");
+    mustNotRun("call");
     const call = new Call();
+    running = { progress, visit, thrown: null };
     try {
         return body(call);
     } finally {
+        running = null;
         call.free();
     }
 }
@@ -186,7 +251,7 @@ function planeOptions(call, options) {
     const numbers = [
         ...amount(radius, count), ...domainOf(options), leafSize, constant("order", order, ORDERS), quotient, coarsest,
     ];
-    return call.rows("options", numbers, Float64Array, numbers.length)[0];
+    return call.options(numbers);
 }
 
 function given(call, { givenPositions, givenClearances }, axes) {
@@ -206,7 +271,16 @@ export function kdrtSample(options) {
         const types = [Float32Array, Float32Array, Float64Array];
         const [positions, ranks, [radius, isMaximal]] = call.make("kdrt_sample", args, ...types);
         return withRanks({ positions, radius, isMaximal: isMaximal === 1 }, ranks);
-    });
+    }, options);
+}
+
+export function kdrtStream(visit, options) {
+    if (typeof visit !== "function") throw new TypeError("visit: not a function");
+    options = withDefaults(PLANE, options);
+    calling((call) => {
+        if (options.count > 0) throw new RangeError(`count: ${options.count}, but streams are made by radius`);
+        call.make("kdrt_stream", [planeOptions(call, options), seedOf(options), ...given(call, options, 2)]);
+    }, { ...options, visit });
 }
 
 export function kdrtSampleWindow(options, windowMin, windowMax) {
@@ -237,7 +311,7 @@ export function kdrtSampleClasses(options, radii) {
         const types = [Float32Array, Uint32Array, Float32Array];
         const [positions, classes, ranks] = call.make("kdrt_sample_classes", args, ...types);
         return withRanks({ positions, classes }, ranks);
-    });
+    }, options);
 }
 
 export function maximalSample(options) {
@@ -245,7 +319,7 @@ export function maximalSample(options) {
     return calling((call) => {
         const args = [options.radius, ...domainOf(options), seedOf(options)];
         return { positions: call.make("maximal_sample", args, Float32Array)[0] };
-    });
+    }, options);
 }
 
 export function kdrtMerge(pieces, options, fixed = null) {
@@ -271,7 +345,7 @@ export function kdrtMerge(pieces, options, fixed = null) {
         ];
         const [positions, [kept, eliminated, inserted]] = call.make("kdrt_merge", args, Float32Array, Float64Array);
         return { positions, kept, eliminated, inserted };
-    });
+    }, options);
 }
 
 // Something in the module's memory, which free() frees, or the garbage collector some day.
@@ -295,6 +369,7 @@ class Handle {
 
     free() {
         if (this.#pointer === 0) return;
+        mustNotRun(this.#name);
         Handle.#registry.unregister(this);
         wasm[`azulejo_${this.#kind}_free`](this.#pointer);
         this.#pointer = 0;
@@ -302,21 +377,25 @@ class Handle {
 }
 if (Symbol.dispose) Handle.prototype[Symbol.dispose] = Handle.prototype.free;
 
-const read = (pointer) => new Uint32Array(wasm.memory.buffer, pointer, 1)[0];
+// Makes a call that writes a handle behind its other arguments: the handle, and the arrays of the answer.
+function created(name, args, options, ...types) {
+    return calling((call) => {
+        const out = call.handle();
+        const arrays = call.make(name, [...args(call), out], ...types);
+        return [new Uint32Array(wasm.memory.buffer, out, 1)[0], ...arrays];
+    }, options);
+}
 
 export class KdrtPlane extends Handle {
     #hasClasses;
 
     constructor(options, radii = null) {
         options = withDefaults(PLANE, options);
-        const pointer = calling((call) => {
-            if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+        if (options.count > 0) throw new RangeError(`count: ${options.count}, but windows are made by radius`);
+        const [pointer] = created("kdrt_create", (call) => {
             const own = radii === null ? [0, 0] : matrix(call, options, radii);
-            const out = call.handle();
-            const args = [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own, out];
-            call.make("kdrt_create", args);
-            return read(out);
-        });
+            return [planeOptions(call, options), seedOf(options), ...given(call, options, 2), ...own];
+        }, options);
         super("kdrt", pointer, "plane");
         this.#hasClasses = radii !== null;
     }
@@ -332,59 +411,116 @@ export class KdrtPlane extends Handle {
 }
 
 // The first argument of a Mesh that exists in the module's memory.
-const PARSED = Symbol("parsed");
+const MADE = Symbol("made");
+
+// What a Mesh is made of that a call makes with these arguments before the handle.
+function mesh(name, args, watched) {
+    const [pointer, numbers, report] = created(name, args, watched, Float64Array, Float64Array);
+    return { pointer, numbers, report };
+}
+
+// Where samples lie on a mesh.
+const places = (call, { triangles, barycentrics }) => [
+    ...call.rows("triangles", triangles, Uint32Array, 1), ...call.rows("barycentrics", barycentrics, Float32Array, 2),
+];
 
 export class Mesh extends Handle {
-    constructor(positions, indices) {
-        if (positions === PARSED) {
-            super("mesh", indices.pointer);
-            this.area = indices.area;
-            return;
+    constructor(positions, indices, options) {
+        const made = positions === MADE ? indices : mesh("mesh_create", (call) => [
+            ...call.rows("positions", positions, Float32Array, 3), ...call.rows("indices", indices, Uint32Array, 3),
+        ]);
+        super("mesh", made.pointer);
+        [this.area, this.vertexCount, this.triangleCount] = made.numbers;
+        if (Object.values(withDefaults(DRESS, options)).every((array) => array === null)) return;
+        try {
+            return this.#with(options);
+        } finally {
+            this.free();
         }
-        let area;
-        const pointer = calling((call) => {
-            const out = call.handle();
-            const arrays = [
-                ...call.rows("positions", positions, Float32Array, 3), ...call.rows("indices", indices, Uint32Array, 3),
-            ];
-            [[area]] = call.make("mesh_create", [...arrays, out], Float64Array);
-            return read(out);
-        });
-        super("mesh", pointer);
-        this.area = area;
     }
 
     static parse(name, bytes) {
-        let area;
-        const pointer = calling((call) => {
-            const out = call.handle();
-            const text = new TextEncoder().encode(String(name));
-            const contents = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
-            const args = [...call.rows("name", text, Uint8Array, 1), ...call.rows("bytes", contents, Uint8Array, 1), out];
-            [[area]] = call.make("mesh_parse", args, Float64Array);
-            return read(out);
-        });
-        return new Mesh(PARSED, { pointer, area });
+        const contents = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
+        const text = new TextEncoder().encode(String(name));
+        return new Mesh(MADE, mesh("mesh_parse", (call) => [
+            ...call.rows("name", text, Uint8Array, 1), ...call.rows("bytes", contents, Uint8Array, 1),
+        ]));
+    }
+
+    #with(dress) {
+        const { normals, normalIndices, mask } = withDefaults(DRESS, dress);
+        return new Mesh(MADE, mesh("mesh_with", (call) => [
+            this.pointer, ...call.rows("normals", normals, Float32Array, 3),
+            ...call.rows("normalIndices", normalIndices, Uint32Array, 3),
+            ...call.rows("mask", mask && Array.from(mask, (isSampled) => (isSampled ? 1 : 0)), Uint8Array, 1),
+        ]));
+    }
+
+    withNormals(normals, normalIndices = null) {
+        if (normals == null) throw new TypeError("normals: not an array of numbers");
+        return this.#with({ normals, normalIndices });
+    }
+
+    withMask(mask) {
+        if (mask == null) throw new TypeError("mask: not an array");
+        return this.#with({ mask });
+    }
+
+    deform(positions) {
+        return new Mesh(MADE, mesh("mesh_deform", (call) => [
+            this.pointer, ...call.rows("positions", positions, Float32Array, 3),
+        ]));
+    }
+
+    points(samples) {
+        return calling((call) => surfaceSamples(call.make("mesh_points", [this.pointer, ...places(call, samples)], ...SAMPLES)));
+    }
+
+    isClosed() {
+        return calling((call) => call.make("mesh_is_closed", [this.pointer], Uint8Array)[0][0] === 1);
+    }
+
+    contains(positions, options) {
+        return calling((call) => {
+            const args = [this.pointer, ...call.rows("positions", positions, Float32Array, 3)];
+            return call.make("mesh_contains", args, Uint8Array)[0];
+        }, withDefaults(WATCHED, options));
     }
 
     arrays() {
         return calling((call) => {
-            const types = [Float32Array, Uint32Array, Float64Array];
-            const [positions, indices, origin] = call.make("mesh_arrays", [this.pointer], ...types);
-            return { positions, indices, origin };
+            const types = [Float32Array, Uint32Array, Float64Array, Float32Array, Uint32Array, Uint8Array];
+            const [positions, indices, origin, ...dress] = call.make("mesh_arrays", [this.pointer], ...types);
+            const named = Object.keys(DRESS).map((name, index) => [name, dress[index]]);
+            return { positions, indices, origin, ...Object.fromEntries(named.filter(([, array]) => array.length > 0)) };
         });
     }
 }
 
-function meshPointer(mesh) {
-    if (mesh instanceof Mesh) return mesh.pointer;
+function meshPointer(of) {
+    if (of instanceof Mesh) return of.pointer;
     throw new TypeError("mesh: not a Mesh");
 }
 
-const SAMPLES = [Float32Array, Float32Array, Uint32Array, Float32Array, Float32Array];
+const SAMPLES = [Float32Array, Float32Array, Uint32Array, Float32Array, Float32Array, Float32Array];
 
-function surfaceSamples([positions, normals, triangles, barycentrics, ranks]) {
-    return withRanks({ positions, normals, triangles, barycentrics }, ranks);
+const withInterpolated = (set, normals) => (normals.length > 0 ? { ...set, interpolatedNormals: normals } : set);
+
+function surfaceSamples([positions, normals, triangles, barycentrics, ranks, interpolated]) {
+    return withInterpolated(withRanks({ positions, normals, triangles, barycentrics }, ranks), interpolated);
+}
+
+const projection = ({ projectors, priority }) =>
+    [constant("projectors", projectors, PROJECTORS), constant("priority", priority, PRIORITIES)];
+
+// The figures of a report that are known.
+function known(figures) {
+    return Object.fromEntries(Object.entries(figures).filter(([, figure]) => figure >= 0));
+}
+
+// The report of a set on a mesh.
+function reported([radius, coveringRadius, rho, iterations, darts, uncoveredBefore, uncoveredAfter]) {
+    return { radius, rho, iterations, darts, ...known({ coveringRadius, uncoveredBefore, uncoveredAfter }) };
 }
 
 export function pspSample(mesh, options) {
@@ -393,12 +529,13 @@ export function pspSample(mesh, options) {
         const { radius, count, order, quotient, cosine, iterations, maximal } = options;
         const numbers = [
             radius, whole("count", count), constant("order", order, ORDERS), quotient, cosine, iterations, maximal ? 1 : 0,
+            ...projection(options),
         ];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(numbers);
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
-        const [[found, coveringRadius], ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
-        return { ...surfaceSamples(samples), radius: found, ...(coveringRadius < 0 ? {} : { coveringRadius }) };
-    });
+        const [report, ...samples] = last(call.make("psp_sample", args, ...SAMPLES, Float64Array));
+        return { ...surfaceSamples(samples), ...reported(report) };
+    }, options);
 }
 
 export function volumeSample(options) {
@@ -406,12 +543,12 @@ export function volumeSample(options) {
     return calling((call) => {
         const { radius, count, order, quotient } = options;
         const numbers = [...amount(radius, count), ...domainOf(options, 3), constant("order", order, ORDERS), quotient];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(numbers);
         const types = [Float32Array, Float32Array, Float64Array];
         const args = [place, seedOf(options), ...given(call, options, 3)];
         const [positions, ranks, [found, coveringRadius]] = call.make("volume_sample", args, ...types);
         return withRanks({ positions, radius: found, coveringRadius }, ranks);
-    });
+    }, options);
 }
 
 export function volumeSampleInside(mesh, options) {
@@ -422,19 +559,21 @@ export function volumeSampleInside(mesh, options) {
             ...amount(radius, count), constant("surface", surface, SURFACES), tolerance, constant("order", order, ORDERS),
             quotient,
         ];
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(numbers);
         const types = [Float32Array, Float32Array, Float64Array];
         const args = [meshPointer(mesh), place, seedOf(options), ...given(call, options, 3)];
         const [positions, ranks, report] = call.make("volume_sample_inside", args, ...types);
         const [found, coveringRadius, depth, surfaceSamples] = report;
         return withRanks({ positions, radius: found, coveringRadius, depth, surfaceSamples }, ranks);
-    });
+    }, options);
 }
 
 export function maskCreate(options) {
     options = withDefaults(MASK, options);
     const sizes = ["width", "height", "depth", "channels"].map((name) => whole(name, options[name]));
-    return calling((call) => call.make("mask_create", [...sizes, seedOf(options), options.sigma], Uint32Array)[0]);
+    return calling((call) => {
+        return call.make("mask_create", [...sizes, seedOf(options), options.sigma], Uint32Array)[0];
+    }, options);
 }
 
 export function maskDither(ranks, mask, image, levels = 2) {
@@ -470,7 +609,7 @@ function varying(call, mesh, options, { kind, radius, count, size, values, textu
     const { order, quotient, cosine } = options;
     const numbers = [constant("order", order, ORDERS), quotient, cosine, kind, radius, count, ...size];
     return [
-        meshPointer(mesh), call.rows("options", numbers, Float64Array, numbers.length)[0], seedOf(options),
+        meshPointer(mesh), call.options(numbers), seedOf(options),
         ...given(call, options, 3), ...call.rows(name, values, Float32Array, 1),
         ...call.rows("texture", texture, Float32Array, 2),
     ];
@@ -481,9 +620,9 @@ function adaptive(mesh, options, unit, name) {
     return calling((call) => {
         const args = varying(call, mesh, options, unit, name);
         const arrays = call.make("psp_adaptive", args, ...SAMPLES, Float64Array, Float64Array);
-        const [radii, [radius]] = arrays.slice(SAMPLES.length);
-        return { ...surfaceSamples(arrays), radii, radius };
-    });
+        const [radii, report] = arrays.slice(SAMPLES.length);
+        return { ...surfaceSamples(arrays), radii, ...reported(report) };
+    }, options);
 }
 
 export function pspAdaptiveSample(mesh, options, vertexRadii) {
@@ -501,10 +640,11 @@ function inClasses(mesh, options, radii, unit) {
             ...varying(call, mesh, options, unit, "density"), ...call.rows("radii", radii, Float64Array, 1),
             ...call.rows("masks", options.masks, Uint32Array, 1),
         ];
-        const arrays = call.make("psp_sample_classes", args, ...SAMPLES, Uint32Array, Float64Array);
-        const [classes, localRadii] = arrays.slice(SAMPLES.length);
-        return { ...surfaceSamples(arrays), classes, ...(unit.kind === 0 ? {} : { radii: localRadii }) };
-    });
+        const arrays = call.make("psp_sample_classes", args, ...SAMPLES, Uint32Array, Float64Array, Float64Array);
+        const [classes, localRadii, report] = arrays.slice(SAMPLES.length);
+        const own = unit.kind === 0 ? {} : { radii: localRadii };
+        return { ...surfaceSamples(arrays), classes, ...own, ...reported(report) };
+    }, options);
 }
 
 export function pspSampleClasses(mesh, options, radii) {
@@ -529,11 +669,11 @@ class EditedSet extends Handle {
 
     // What a call returns of samples, and what comes behind it.
     #edited(call, name, args, ...more) {
-        const types = [Float32Array, Float32Array, Uint32Array, Float32Array, Float64Array, ...more];
+        const types = [Float32Array, Float32Array, Uint32Array, Float32Array, Float64Array, Float32Array, ...more];
         const arrays = call.make(`set_${name}`, [this.pointer, ...args], ...types);
-        const [positions, normals, triangles, barycentrics, ids, ...rest] = arrays;
+        const [positions, normals, triangles, barycentrics, ids, interpolated, ...rest] = arrays;
         const samples = this.#axes === 2 ? { positions, ids } : { positions, normals, triangles, barycentrics, ids };
-        return [samples, ...rest];
+        return [withInterpolated(samples, interpolated), ...rest];
     }
 
     points() {
@@ -585,21 +725,20 @@ class EditedSet extends Handle {
         calling((call) => call.make("set_remove_given", [this.pointer, ...call.rows("ids", ids, Float64Array, 1)]));
     }
 
-    refill(seed = 0) {
-        return calling((call) => this.#edited(call, "refill", [seedOf({ seed })])[0]);
+    refill(seed = 0, options) {
+        const watched = withDefaults(WATCHED, options);
+        return calling((call) => this.#edited(call, "refill", [seedOf({ seed })])[0], watched);
     }
 }
 
 export class Plane extends EditedSet {
     constructor(options, positions = null) {
         options = withDefaults(EDITED_PLANE, options);
-        const pointer = calling((call) => {
-            const out = call.handle();
+        const [pointer] = created("plane_create", (call) => {
             const numbers = planeOptions(call, { ...PLANE, ...options });
             const begun = [positions === null ? 0 : 1, ...call.rows("positions", positions, Float32Array, 2)];
-            call.make("plane_create", [numbers, seedOf(options), ...given(call, options, 2), ...begun, out]);
-            return read(out);
-        });
+            return [numbers, seedOf(options), ...given(call, options, 2), ...begun];
+        }, options);
         super(pointer, 2);
     }
 }
@@ -607,38 +746,50 @@ export class Plane extends EditedSet {
 export class Psp extends EditedSet {
     constructor(mesh, options) {
         options = withDefaults(GROWING, options);
-        const pointer = calling((call) => {
-            const out = call.handle();
-            const { radius, cosine } = options;
-            const args = [meshPointer(mesh), radius, cosine, seedOf(options), ...given(call, options, 3), out];
-            call.make("psp_create", args);
-            return read(out);
-        });
+        const { radius, cosine } = options;
+        const [pointer] = created("psp_create", (call) => [
+            meshPointer(mesh), radius, cosine, ...projection(options), seedOf(options), ...given(call, options, 3),
+        ]);
         super(pointer, 3);
     }
 
-    advance(iterations) {
+    advance(iterations, options) {
         return calling((call) => {
             const args = [this.pointer, whole("iterations", iterations)];
             return call.make("set_advance", args, Float64Array)[0][0];
-        });
+        }, withDefaults(WATCHED, options));
     }
 
-    fill() {
-        return calling((call) => call.make("set_fill", [this.pointer], Float64Array)[0][0]);
+    fill(options) {
+        const watched = withDefaults(WATCHED, options);
+        return calling((call) => call.make("set_fill", [this.pointer], Float64Array)[0][0], watched);
     }
 }
 
 export function dcrRelax(positions, options) {
     options = withDefaults(RELAX, options);
     return calling((call) => {
-        const { neighbourhood, maxIterations, tolerance } = options;
-        const args = [
-            ...domainOf(options), constant("neighbourhood", neighbourhood, NEIGHBOURHOODS),
-            whole("maxIterations", maxIterations), tolerance, seedOf(options), ...call.rows("positions", positions, Float32Array, 2),
+        const own = Object.keys(THESIS).filter((name) => options[name] !== null);
+        const method = constant("method", options.method, METHODS);
+        if (method === METHODS.momentum && own.length > 0) throw new Error(`${own[0]}: is of the method "thesis" only`);
+        const { conflictRadius, attractionRadius, step, decay, neighbours, distribution, visits, convergence } =
+            withDefaults(THESIS, Object.fromEntries(own.map((name) => [name, options[name]])));
+        const numbers = [
+            ...domainOf(options), constant("neighbourhood", options.neighbourhood, NEIGHBOURHOODS), method,
+            whole("maxIterations", options.maxIterations), toleranceOf(options), conflictRadius, attractionRadius, step, decay,
+            whole("neighbours", neighbours), constant("distribution", distribution, DISTRIBUTIONS),
+            constant("visits", visits, VISITS), constant("convergence", convergence, CONVERGENCE),
         ];
+        const args = [call.options(numbers), seedOf(options), ...call.rows("positions", positions, Float32Array, 2)];
         return relaxation(call.make("dcr_relax", args, Float32Array, Float64Array));
-    });
+    }, options);
+}
+
+// -1 for that of the method.
+function toleranceOf({ tolerance }) {
+    if (tolerance === null) return -1;
+    if (tolerance >= 0) return tolerance;
+    throw new RangeError(`tolerance: ${tolerance} is no number from 0`);
 }
 
 // Relaxed points of the plane.
@@ -658,7 +809,43 @@ export function dcrRelaxClasses(positions, classes, options) {
         const types = [Float32Array, Float64Array, Float64Array, Float64Array];
         const [relaxed, report, classRho, classRelativeCoveringRadius] = call.make("dcr_relax_classes", args, ...types);
         return { ...relaxation([relaxed, report]), classRho, classRelativeCoveringRadius };
+    }, options);
+}
+
+export function dcrRelaxToCorrelation(positions, correlation, reach, options) {
+    options = withDefaults(CORRELATION, options);
+    return calling((call) => {
+        const { maxIterations, tolerance } = options;
+        const args = [
+            ...domainOf(options), whole("maxIterations", maxIterations), tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 2), reach,
+            ...call.rows("correlation", correlation, Float64Array, 1),
+        ];
+        const types = [Float32Array, Float64Array, Float64Array];
+        const [relaxed, report, [residual]] = call.make("dcr_relax_to_correlation", args, ...types);
+        return { ...relaxation([relaxed, report]), residual };
+    }, options);
+}
+
+export function dcrCorrelationOfPower(power, highest, reach = 12, bins = 480) {
+    return calling((call) => {
+        const args = [highest, reach, whole("bins", bins), ...call.rows("power", power, Float64Array, 1)];
+        return call.make("dcr_correlation_of_power", args, Float64Array)[0];
     });
+}
+
+export function volumeRelax(positions, options) {
+    options = withDefaults(RELAX_VOLUME, options);
+    return calling((call) => {
+        const place = call.options(domainOf(options, 3));
+        const args = [
+            place, whole("maxIterations", options.maxIterations), options.tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 3),
+        ];
+        const [relaxed, report] = call.make("volume_relax", args, Float32Array, Float64Array);
+        const [iterations, stopped, motion, smallestDistance, rho] = report;
+        return { positions: relaxed, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
+    }, options);
 }
 
 // An image of densities: its values, and its size behind them.
@@ -673,7 +860,7 @@ export function dcrScatter(density, count, options) {
     return calling((call) => {
         const args = [...domainOf(options), whole("count", count), seedOf(options), ...image(call, density)];
         return { positions: call.make("dcr_scatter", args, Float32Array)[0] };
-    });
+    }, options);
 }
 
 export function dcrRelaxDensity(positions, density, options) {
@@ -685,23 +872,33 @@ export function dcrRelaxDensity(positions, density, options) {
             ...call.rows("positions", positions, Float32Array, 2), ...image(call, density),
         ];
         return relaxation(call.make("dcr_relax_density", args, Float32Array, Float64Array));
-    });
+    }, options);
 }
 
 export function dcrSurfaceRelax(mesh, samples, options) {
     options = withDefaults(RELAX_SURFACE, options);
     return calling((call) => {
         const { maxIterations, tolerance } = options;
-        const [triangles, count] = call.rows("triangles", samples.triangles, Uint32Array, 1);
-        const [barycentrics, rows] = call.rows("barycentrics", samples.barycentrics, Float32Array, 2);
-        if (rows !== count) throw new RangeError(`barycentrics: ${rows} rows for ${count} triangles`);
         const args = [
-            meshPointer(mesh), whole("maxIterations", maxIterations), tolerance, seedOf(options), triangles, barycentrics, count,
+            meshPointer(mesh), whole("maxIterations", maxIterations), tolerance, seedOf(options), ...places(call, samples),
         ];
         const [report, ...relaxed] = last(call.make("dcr_surface_relax", args, ...SAMPLES, Float64Array));
         const [iterations, stopped, motion, smallestDistance, rho] = report;
         return { ...surfaceSamples(relaxed), iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
-    });
+    }, options);
+}
+
+export function dcrRemesh(of, samples, options) {
+    const watched = withDefaults(WATCHED, options);
+    const made = mesh("dcr_remesh", (call) => [meshPointer(of), ...places(call, samples)], watched);
+    const [
+        triangles, disputed, leftOut, boundaryEdges, innerEdges, nonManifoldEdges, nonManifoldVertices, unusedVertices, euler,
+        smallestAngle, largestAngle, meanSmallestAngle,
+    ] = made.report;
+    return {
+        mesh: new Mesh(MADE, made), triangles, disputed, leftOut, boundaryEdges, innerEdges, nonManifoldEdges,
+        nonManifoldVertices, unusedVertices, euler, smallestAngle, largestAngle, meanSmallestAngle,
+    };
 }
 
 export function thin(positions, dimensions, options) {
@@ -715,89 +912,219 @@ export function thin(positions, dimensions, options) {
         ];
         const [indices, ranks] = call.make("thin", args, Uint32Array, Float32Array);
         return withRanks({ indices }, ranks);
-    });
+    }, options);
+}
+
+// A measurement of the plane: its arguments are the domain, the positions, and more.
+function ofPlane(positions, options, body) {
+    options = withDefaults(DOMAIN, options);
+    return calling((call) => {
+        return body(call, [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2)]);
+    }, options);
 }
 
 export function planeMeasure(positions, options) {
-    options = withDefaults(DOMAIN, options);
-    return calling((call) => {
-        const args = [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2)];
-        const [[smallestDistance, coveringRadius]] = call.make("plane_measure", args, Float64Array);
-        return { smallestDistance, coveringRadius };
+    return ofPlane(positions, options, (call, args) => {
+        const [
+            count, smallestDistance, meanDistance, hexagonalDistance, coveringRadius, bondOrder, triangles, obtuse,
+            below30Degrees, anglesBelow30Degrees, edgeMean, edgeVariation, areaVariation, beyond4Sigma,
+        ] = call.make("plane_measure", args, Float64Array)[0];
+        return {
+            count, smallestDistance, meanDistance, hexagonalDistance,
+            rho: count === 0 ? Infinity : smallestDistance / hexagonalDistance, coveringRadius, bondOrder, triangles, obtuse,
+            below30Degrees, anglesBelow30Degrees, edgeMean, edgeVariation, areaVariation, beyond4Sigma,
+        };
+    });
+}
+
+export function planeSmallestDistance(positions, options) {
+    return ofPlane(positions, options, (call, args) => call.make("plane_distance", [...args, 0], Float64Array)[0][0]);
+}
+
+export function planeCoveringRadius(positions, options) {
+    return ofPlane(positions, options, (call, args) => call.make("plane_distance", [...args, 1], Float64Array)[0][0]);
+}
+
+export function planeNearestHistogram(positions, reach, bins, options) {
+    return ofPlane(positions, options, (call, args) => {
+        return call.make("plane_nearest_histogram", [...args, reach, whole("bins", bins)], Uint32Array)[0];
     });
 }
 
 export function spaceMeasure(positions, options) {
     options = withDefaults(SPACE, options);
     return calling((call) => {
-        const numbers = domainOf(options, 3);
-        const place = call.rows("options", numbers, Float64Array, numbers.length)[0];
+        const place = call.options(domainOf(options, 3));
         const args = [place, options.radius, ...call.rows("positions", positions, Float32Array, 3)];
         const [measured] = call.make("space_measure", args, Float64Array);
-        const [smallestDistance, meanDistance, rho, coveringRadius, conflicts, gaps] = measured;
-        return { smallestDistance, meanDistance, rho, coveringRadius, conflicts, gaps };
-    });
+        const [
+            count, smallestDistance, meanDistance, packedDistance, rho, coveringRadius, relativeCoveringRadius, conflicts, gaps,
+        ] = measured;
+        return {
+            count, smallestDistance, meanDistance, packedDistance, rho, coveringRadius, relativeCoveringRadius, conflicts, gaps,
+        };
+    }, options);
 }
 
-export function meshMeasure(mesh, positions) {
+export function spaceCoverage(positions, radius, options) {
+    options = withDefaults(CUBOID, options);
+    return calling((call) => {
+        const place = call.options(domainOf(options, 3));
+        const args = [place, radius, ...call.rows("positions", positions, Float32Array, 3)];
+        const [[coveringRadius, gaps]] = call.make("space_coverage", args, Float64Array);
+        return { coveringRadius, gaps };
+    }, options);
+}
+
+export function meshMeasure(mesh, positions, options) {
+    options = withDefaults(WATCHED, options);
     return calling((call) => {
         const args = [meshPointer(mesh), ...call.rows("positions", positions, Float32Array, 3)];
         const [[smallestDistance, coveringRadius]] = call.make("mesh_measure", args, Float64Array);
         return { smallestDistance, coveringRadius };
-    });
+    }, options);
 }
 
 export function planeCoverage(positions, radius, options) {
-    options = withDefaults(DOMAIN, options);
-    return calling((call) => {
-        const args = [...domainOf(options), radius, ...call.rows("positions", positions, Float32Array, 2)];
+    return ofPlane(positions, options, (call, [...args]) => {
+        args.splice(5, 0, radius);
         const [[coveringRadius, gaps]] = call.make("plane_coverage", args, Float64Array);
         return { coveringRadius, gaps };
     });
 }
 
-export function meshCoverage(mesh, positions, radius) {
+export function meshCoverage(mesh, positions, radius, options) {
     return calling((call) => {
         const args = [meshPointer(mesh), radius, ...call.rows("positions", positions, Float32Array, 3)];
         const [[coveringRadius, gaps]] = call.make("mesh_coverage", args, Float64Array);
         return { coveringRadius, gaps };
-    });
+    }, withDefaults(WATCHED, options));
 }
 
-export function spaceSmallestDistance(positions) {
+export function spaceSmallestDistance(positions, options) {
     return calling((call) => {
         const args = call.rows("positions", positions, Float32Array, 3);
         return call.make("space_smallest_distance", args, Float64Array)[0][0];
-    });
+    }, withDefaults(WATCHED, options));
 }
 
-export function meshUncoveredFraction(mesh, positions, radius, { probes = 100_000, seed = 0 } = {}) {
+export function meshUncoveredFraction(mesh, positions, radius, options) {
+    options = withDefaults(PROBES, options);
     return calling((call) => {
         const args = [
-            meshPointer(mesh), radius, BigInt(whole("probes", probes)), seedOf({ seed }), ...call.rows("positions", positions, Float32Array, 3),
+            meshPointer(mesh), radius, BigInt(whole("probes", options.probes)), seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 3),
         ];
         return call.make("mesh_uncovered_fraction", args, Float64Array)[0][0];
-    });
+    }, options);
 }
 
 export function planeRadialDistribution(positions, reach, bins, options) {
-    options = withDefaults(DOMAIN, options);
-    return calling((call) => {
-        const args = [...domainOf(options), ...call.rows("positions", positions, Float32Array, 2), reach, whole("bins", bins)];
-        return call.make("plane_radial_distribution", args, Float64Array)[0];
+    return ofPlane(positions, options, (call, args) => {
+        return call.make("plane_radial_distribution", [...args, reach, whole("bins", bins)], Float64Array)[0];
     });
 }
 
-export function spectrum(positions, options) {
-    options = withDefaults(SPECTRUM, options);
-    return calling((call) => {
-        const array = call.rows("positions", positions, Float32Array, 2);
-        const args = [...domainOf(options), ...array, whole("size", options.size), options.width];
-        const [power, numbers] = call.make("spectrum", args, Float32Array, Float64Array);
-        const annuli = Array.from({ length: numbers.length / 4 }, (_, i) => {
+// The handle of the mean of what the caller has, of one kind.
+function meanOf(argument, kind, Kind, all) {
+    const pointers = [...all].map((one) => {
+        if (one instanceof Kind) return one.pointer;
+        throw new TypeError(`${argument}: not all are of the class ${Kind.name}`);
+    });
+    return created(`${kind}_mean`, (call) => call.rows(argument, pointers, Uint32Array, 1))[0];
+}
+
+export class Spectrum extends Handle {
+    constructor(positions, size, options) {
+        if (positions === MADE) {
+            super("spectrum", options);
+            this.size = size;
+            return;
+        }
+        options = withDefaults(SPECTRA, options);
+        const sizes = [whole("size", size), whole("frequencyStride", options.frequencyStride)];
+        const [pointer] = created("spectrum_create", (call) => [
+            ...domainOf(options), ...call.rows("positions", positions, Float32Array, 2), ...sizes,
+        ], options);
+        super("spectrum", pointer);
+        this.size = size;
+    }
+
+    static mean(spectra) {
+        const all = [...spectra];
+        return new Spectrum(MADE, all[0]?.size, meanOf("spectra", "spectrum", Spectrum, all));
+    }
+
+    power() {
+        return calling((call) => call.make("spectrum_power", [this.pointer], Float32Array)[0]);
+    }
+
+    radial(width = 0.05) {
+        const [numbers] = calling((call) => call.make("spectrum_radial", [this.pointer, width], Float64Array));
+        return Array.from({ length: numbers.length / 4 }, (_, i) => {
             const [frequency, power, anisotropy, count] = numbers.subarray(4 * i, 4 * i + 4);
             return { frequency, power, anisotropy, count };
         });
-        return { size: options.size, power, annuli };
-    });
+    }
+
+    measure(low, high, width) {
+        return calling((call) => {
+            const args = [this.pointer, low, high, width];
+            const [column, row, effectiveNyquist, oscillation, contrast, peak, x, y] =
+                call.make("spectrum_measure", args, Float64Array)[0];
+            const figures = { frequencyStep: [column, row], contrast, peak, peakFrequency: [x, y] };
+            return { ...figures, ...known({ effectiveNyquist, oscillation }) };
+        });
+    }
+}
+
+export function spectrum(positions, options) {
+    const { size, width, ...others } = withDefaults(SPECTRUM, options);
+    const made = new Spectrum(positions, size, others);
+    try {
+        return { size, power: made.power(), annuli: made.radial(width) };
+    } finally {
+        made.free();
+    }
+}
+
+export class Differences extends Handle {
+    constructor(mesh, samples, options) {
+        if (mesh === MADE) {
+            super("differences", samples);
+            return;
+        }
+        options = withDefaults(DIFFERENCES, options);
+        const { positions, normals } = samples;
+        const direction = corner("direction", options.direction, 3);
+        const [pointer] = created("differences_create", (call) => [
+            meshPointer(mesh), ...call.rows("positions", positions, Float32Array, 3),
+            ...call.rows("normals", normals, Float32Array, 3), call.options(direction), seedOf(options),
+        ], options);
+        super("differences", pointer);
+    }
+
+    static mean(differences) {
+        return new Differences(MADE, meanOf("differences", "differences", Differences, differences));
+    }
+
+    #densities() {
+        const types = [Float64Array, Float64Array];
+        return calling((call) => call.make("differences_densities", [this.pointer], ...types));
+    }
+
+    density() {
+        return this.#densities()[0];
+    }
+
+    radial() {
+        return this.#densities()[1];
+    }
+
+    power(frequencies) {
+        return calling((call) => {
+            const args = [this.pointer, ...call.rows("frequencies", frequencies, Float64Array, 1)];
+            return call.make("differences_power", args, Float64Array)[0];
+        });
+    }
 }

@@ -5,7 +5,7 @@ cd "$(dirname "$0")"
 
 ./build.sh
 npm ci --silent --ignore-scripts --no-audit --no-fund
-node --test test/package.test.js test/sums.test.js
+node --test test/*.test.js
 npx tsc -p .
 
 packed=$(npm pack --dry-run --json --silent | node -p 'JSON.parse(require("fs").readFileSync(0))[0].files.map((file) => file.path).sort().join(" ")')

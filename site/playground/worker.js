@@ -101,7 +101,7 @@ const tasks = {
     // azulejo and naive algorithms on the unit torus, judged alike.
     peers({ radius, seed, candidates }) {
         const judged = (name, [positions, milliseconds]) => {
-            const smallest = azulejo.planeMeasure(positions).smallestDistance;
+            const smallest = azulejo.planeSmallestDistance(positions);
             const conflicts = smallest >= radius ? 0 : countConflicts(positions, 2, radius, wrapped);
             const { gaps, coveringRadius } = azulejo.planeCoverage(positions, radius);
             return { name, positions, milliseconds, count: positions.length / 2, smallest, conflicts, gaps, coveringRadius };

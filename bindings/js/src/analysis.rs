@@ -4,17 +4,21 @@ use azulejo::analysis::coverage::{
     coverage_2d, coverage_3d, covering_radius_2d, surface_coverage, surface_covering_radius, surface_uncovered_fraction,
 };
 use azulejo::analysis::distribution::radial_distribution;
+use azulejo::analysis::figures::{Figures, figures_2d};
 use azulejo::analysis::space::figures_3d;
-use azulejo::analysis::spacing::{smallest_distance_2d, smallest_distance_3d};
-use azulejo::analysis::spectrum::periodogram;
+use azulejo::analysis::spacing::{
+    nearest_distances_2d, nearest_histogram_2d, smallest_distance_2d, smallest_distance_3d, spacing_2d,
+};
 use azulejo::{Boundary, Domain};
 
 use crate::answer::{Answer, call};
 use crate::domain;
 use crate::memory::rows;
-use crate::surface::Handle;
+use crate::mesh::Handle;
+use crate::watch::part;
 
-/// The smallest distance and the covering radius of a set of the plane.
+/// The figures of a set of the plane: number, smallest and mean distance, hexagonal distance, covering radius, bond order, and
+/// those of its Delaunay triangles.
 ///
 /// # Safety
 /// `points` is valid for reads of `count` points.
@@ -30,10 +34,83 @@ pub unsafe extern "C" fn azulejo_plane_measure(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
-    call(|context| {
+    call(|context, progress| {
         let domain = domain(min_x, min_y, max_x, max_y, bounded);
-        let smallest = smallest_distance_2d(context, &domain, points, None)?;
-        Ok(Answer::default().and(vec![smallest, covering_radius_2d(context, &domain, points, None)?]))
+        let figures = figures_2d(context, &domain, points, progress)?;
+        let Figures { nearest, covering_radius, bond_order, triangles, .. } = figures;
+        let spacing = spacing_2d(&domain, &nearest);
+        Ok(Answer::default().and(vec![
+            nearest.len() as f64,
+            spacing.smallest,
+            spacing.mean,
+            spacing.hexagonal,
+            covering_radius,
+            bond_order,
+            triangles.triangles as f64,
+            triangles.obtuse,
+            triangles.below_30_degrees,
+            triangles.angles_below_30_degrees,
+            triangles.edge_mean,
+            triangles.edge_variation,
+            triangles.area_variation,
+            triangles.beyond_4_sigma,
+        ]))
+    })
+}
+
+/// The smallest distance of a set of the plane, or its covering radius.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_distance(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    points: *const [f32; 2],
+    count: usize,
+    is_covering: i32,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context, progress| {
+        let domain = domain(min_x, min_y, max_x, max_y, bounded);
+        let distance = match is_covering {
+            0 => smallest_distance_2d(context, &domain, points, progress)?,
+            _ => covering_radius_2d(context, &domain, points, progress)?,
+        };
+        Ok(Answer::default().and(vec![distance]))
+    })
+}
+
+/// The histogram of the distances of the points of a set of the plane to their nearest neighbours.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
+    min_x: f64,
+    min_y: f64,
+    max_x: f64,
+    max_y: f64,
+    bounded: i32,
+    points: *const [f32; 2],
+    count: usize,
+    reach: f64,
+    bins: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context, progress| {
+        let domain = domain(min_x, min_y, max_x, max_y, bounded);
+        // Bad bins are refused before any work.
+        nearest_histogram_2d(&domain, &[], reach, bins)?;
+        let nearest = nearest_distances_2d(context, &domain, points, progress)?;
+        let histogram = nearest_histogram_2d(&domain, &nearest, reach, bins)?;
+        // No memory of 32 bits holds more points.
+        Ok(Answer::default().and(histogram.into_iter().map(|count| count as u32).collect::<Vec<u32>>()))
     })
 }
 
@@ -45,8 +122,16 @@ pub struct Cuboid {
     bounded: f64,
 }
 
-/// The smallest distance, the mean of nearest neighbours, rho and the covering radius of a set of a cuboid; the number of pairs
-/// nearer than a radius, and of the gaps of that radius, which are none for 0.
+impl Cuboid {
+    pub(crate) fn domain(&self) -> Domain<3> {
+        let boundary = if self.bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
+        Domain { min: self.min, max: self.max, boundary }
+    }
+}
+
+/// The number of points of a set of a cuboid, the smallest distance, the mean of nearest neighbours, the distance in the densest
+/// packing, rho, the covering radius and the relative one; the number of pairs nearer than a radius, and of the gaps of that
+/// radius, which are none for 0.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -59,20 +144,44 @@ pub unsafe extern "C" fn azulejo_space_measure(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
-    let &Cuboid { min, max, bounded } = cuboid;
-    call(|context| {
-        let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
-        let domain = Domain { min, max, boundary };
-        let figures = figures_3d(context, &domain, points, radius, None)?;
-        let gaps = if radius == 0.0 { 0 } else { coverage_3d(context, &domain, points, radius, None)?.gaps };
+    call(|context, progress| {
+        let domain = cuboid.domain();
+        let end = if radius == 0.0 { 1.0 } else { 0.5 };
+        let figures = figures_3d(context, &domain, points, radius, Some(&part(progress, 0.0, end)))?;
+        let gaps = match radius {
+            0.0 => 0,
+            _ => coverage_3d(context, &domain, points, radius, Some(&part(progress, end, 1.0)))?.gaps,
+        };
         Ok(Answer::default().and(vec![
+            figures.count as f64,
             figures.smallest,
             figures.mean,
+            figures.packed,
             figures.rho(),
             figures.covering_radius,
+            figures.relative_covering_radius(),
             figures.conflicts as f64,
             gaps as f64,
         ]))
+    })
+}
+
+/// The covering radius of a set of a cuboid, and its gaps for a radius.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_coverage(
+    cuboid: &Cuboid,
+    radius: f64,
+    points: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context, progress| {
+        let found = coverage_3d(context, &cuboid.domain(), points, radius, progress)?;
+        Ok(Answer::default().and(vec![found.farthest, found.gaps as f64]))
     })
 }
 
@@ -84,9 +193,10 @@ pub unsafe extern "C" fn azulejo_space_measure(
 pub unsafe extern "C" fn azulejo_mesh_measure(mesh: &Handle, positions: *const [f32; 3], count: usize) -> i32 {
     // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count) };
-    call(|context| {
-        let smallest = smallest_distance_3d(context, positions, None)?;
-        Ok(Answer::default().and(vec![smallest, surface_covering_radius(context, &mesh.0, positions, None)?]))
+    call(|context, progress| {
+        let smallest = smallest_distance_3d(context, positions, Some(&part(progress, 0.0, 0.1)))?;
+        let rest = part(progress, 0.1, 1.0);
+        Ok(Answer::default().and(vec![smallest, surface_covering_radius(context, &mesh.0, positions, Some(&rest))?]))
     })
 }
 
@@ -107,8 +217,8 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
-    call(|context| {
-        let found = coverage_2d(context, &domain(min_x, min_y, max_x, max_y, bounded), points, radius, None)?;
+    call(|context, progress| {
+        let found = coverage_2d(context, &domain(min_x, min_y, max_x, max_y, bounded), points, radius, progress)?;
         Ok(Answer::default().and(vec![found.farthest, found.gaps as f64]))
     })
 }
@@ -126,8 +236,8 @@ pub unsafe extern "C" fn azulejo_mesh_coverage(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count) };
-    call(|context| {
-        let found = surface_coverage(context, &mesh.0, positions, radius, None)?;
+    call(|context, progress| {
+        let found = surface_coverage(context, &mesh.0, positions, radius, progress)?;
         Ok(Answer::default().and(vec![found.farthest, found.gaps as f64]))
     })
 }
@@ -140,7 +250,7 @@ pub unsafe extern "C" fn azulejo_mesh_coverage(
 pub unsafe extern "C" fn azulejo_space_smallest_distance(positions: *const [f32; 3], count: usize) -> i32 {
     // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count) };
-    call(|context| Ok(Answer::default().and(vec![smallest_distance_3d(context, positions, None)?])))
+    call(|context, progress| Ok(Answer::default().and(vec![smallest_distance_3d(context, positions, progress)?])))
 }
 
 /// The share of a mesh that is farther than `radius` from positions, by random probes.
@@ -158,8 +268,8 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count) };
-    call(|context| {
-        let share = surface_uncovered_fraction(context, &mesh.0, positions, radius, probes, seed, None)?;
+    call(|context, progress| {
+        let share = surface_uncovered_fraction(context, &mesh.0, positions, radius, probes, seed, progress)?;
         Ok(Answer::default().and(vec![share]))
     })
 }
@@ -182,35 +292,8 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
-    call(|context| {
+    call(|context, progress| {
         let domain = domain(min_x, min_y, max_x, max_y, bounded);
-        Ok(Answer::default().and(radial_distribution(context, &domain, points, reach, bins, None)?.density()))
-    })
-}
-
-/// The power of each frequency; the frequency, power, anisotropy and number of frequencies of each annulus.
-///
-/// # Safety
-/// `points` is valid for reads of `count` points.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_spectrum(
-    min_x: f64,
-    min_y: f64,
-    max_x: f64,
-    max_y: f64,
-    bounded: i32,
-    points: *const [f32; 2],
-    count: usize,
-    size: usize,
-    width: f64,
-) -> i32 {
-    // SAFETY: guaranteed by the caller.
-    let points = unsafe { rows(points, count) };
-    call(|context| {
-        let domain = domain(min_x, min_y, max_x, max_y, bounded);
-        let spectrum = periodogram(context, &domain, points, size, None)?;
-        let annuli = spectrum.radial(width)?;
-        let annuli = annuli.iter().flat_map(|ring| [ring.frequency, ring.power, ring.anisotropy, ring.count as f64]);
-        Ok(Answer::default().and(spectrum.power().to_vec()).and(annuli.collect::<Vec<f64>>()))
+        Ok(Answer::default().and(radial_distribution(context, &domain, points, reach, bins, progress)?.density()))
     })
 }

@@ -2,7 +2,9 @@
 
 use std::cell::RefCell;
 
-use azulejo::{Context, Result};
+use azulejo::{Context, Error, Progress, Result};
+
+use crate::watch::progress;
 
 thread_local! {
     static ANSWER: RefCell<Answer> = RefCell::default();
@@ -62,13 +64,18 @@ impl Answer {
     }
 }
 
-/// Makes a call on one thread and keeps its answer, or the text of its error. Returns whether it succeeded.
-pub(crate) fn call(body: impl FnOnce(&Context) -> Result<Answer>) -> i32 {
+/// Makes a call on one thread, which JavaScript watches, and keeps its answer, or the text of its error. Returns 1 if it
+/// succeeded, 2 if JavaScript cancelled it, else 0.
+pub(crate) fn call(body: impl FnOnce(&Context, Option<&Progress>) -> Result<Answer>) -> i32 {
     ANSWER.set(Answer::default());
-    let answer = Context::new(1).and_then(|context| body(&context));
-    let succeeded = answer.is_ok();
+    let answer = Context::new(1).and_then(|context| body(&context, Some(&progress)));
+    let outcome = match &answer {
+        Ok(_) => 1,
+        Err(Error::Cancelled) => 2,
+        Err(_) => 0,
+    };
     ANSWER.set(answer.unwrap_or_else(|error| Answer(vec![Array::Bytes(error.to_string().into_bytes())])));
-    succeeded.into()
+    outcome
 }
 
 fn place(index: usize) -> (*const u8, usize) {

@@ -5,7 +5,7 @@ use azulejo::dcr::{DelaunayOptions, Density, relax_with_density, scatter};
 use crate::answer::{Answer, call};
 use crate::domain;
 use crate::memory::rows;
-use crate::plane::relaxation;
+use crate::relax::relaxation;
 
 /// Random points with the density of an image.
 ///
@@ -27,9 +27,9 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let values = unsafe { rows(values, value_count) };
-    call(|context| {
+    call(|context, progress| {
         let (domain, image) = (domain(min_x, min_y, max_x, max_y, bounded), Density::Image { values, width, height });
-        Ok(Answer::default().and(scatter(context, &domain, &image, count as usize, seed, None)?))
+        Ok(Answer::default().and(scatter(context, &domain, &image, count as usize, seed, progress)?))
     })
 }
 
@@ -56,13 +56,13 @@ pub unsafe extern "C" fn azulejo_dcr_relax_density(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let (points, values) = unsafe { (rows(points, count), rows(values, value_count)) };
-    call(|context| {
+    call(|context, progress| {
         let options = DelaunayOptions::new(domain(min_x, min_y, max_x, max_y, bounded))
             .max_iterations(max_iterations)
             .tolerance(tolerance)
             .seed(seed);
         let image = Density::Image { values, width, height };
-        let (relaxed, report) = relax_with_density(context, &options, &image, points, None)?;
+        let (relaxed, report) = relax_with_density(context, &options, &image, points, progress)?;
         Ok(Answer::default().and(relaxed).and(relaxation(&report)))
     })
 }

@@ -5,8 +5,9 @@ use azulejo::{Error, Points, Region, Result, kdrt};
 
 use crate::answer::{Answer, call};
 use crate::memory::rows;
+use crate::mesh::Handle;
 use crate::plane::PlaneOptions;
-use crate::surface::Handle;
+use crate::surface::projection;
 use crate::{given, given_of};
 
 /// The object behind JavaScript's `Plane` and `Psp`.
@@ -45,10 +46,11 @@ impl Set {
 
 /// What is known of samples of an edited set.
 fn edited<const AXES: usize>(samples: Points<AXES>) -> Answer {
-    let Points { positions, normals, triangles, barycentrics, ids, .. } = samples;
+    let Points { positions, normals, triangles, barycentrics, ids, interpolated_normals, .. } = samples;
     // Whole numbers up to 2^53, more than any set gets to.
     let ids = ids.into_iter().map(|id| id as f64).collect::<Vec<f64>>();
-    Answer::default().and(positions.into_flattened()).and(normals).and(triangles).and(barycentrics).and(ids)
+    let answer = Answer::default().and(positions.into_flattened()).and(normals).and(triangles).and(barycentrics);
+    answer.and(ids).and(interpolated_normals)
 }
 
 /// Ids that JavaScript gives as numbers.
@@ -83,10 +85,10 @@ pub unsafe extern "C" fn azulejo_plane_create(
     // SAFETY: guaranteed by the caller.
     let (given, positions) =
         unsafe { (given(given_positions, given_count, clearances, clearance_count), rows(positions, count)) };
-    call(|context| {
+    call(|context, progress| {
         let options = options.by_radius(seed, given);
         let set = match has_positions {
-            0 => kdrt::EditableSet::sample(context, &options, None)?,
+            0 => kdrt::EditableSet::sample(context, &options, progress)?,
             _ => kdrt::EditableSet::of(&options, positions)?,
         };
         *out = Some(Box::new(Set::Plane(set)));
@@ -103,6 +105,8 @@ pub unsafe extern "C" fn azulejo_psp_create(
     mesh: &Handle,
     radius: f64,
     cosine: f64,
+    global: i32,
+    by_projector: i32,
     seed: u64,
     positions: *const [f32; 3],
     count: usize,
@@ -112,8 +116,10 @@ pub unsafe extern "C" fn azulejo_psp_create(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
-    call(|_| {
+    call(|_, _| {
+        let (projectors, priority) = projection(global != 0, by_projector != 0);
         let options = ProjectionOptions::new(radius).cosine(cosine).seed(seed).given(given);
+        let options = options.projectors(projectors).priority(priority);
         *out = Some(Box::new(Set::Growing(psp::Psp::new(&mesh.0, &options)?)));
         Ok(Answer::default())
     })
@@ -128,8 +134,10 @@ pub extern "C" fn azulejo_set_free(set: Option<Box<Set>>) {
 /// Makes iterations on a mesh; the answer has the number of samples that they added.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_set_advance(set: &mut Set, iterations: u32) -> i32 {
-    call(|context| match set {
-        Set::Growing(set) => Ok(Answer::default().and(vec![set.advance(context, iterations, None)?.accepted as f64])),
+    call(|context, progress| match set {
+        Set::Growing(set) => {
+            Ok(Answer::default().and(vec![set.advance(context, iterations, progress)?.accepted as f64]))
+        }
         _ => {
             let reason = "of a set that has been edited, which makes no more".to_owned();
             Err(Error::InvalidArgument { argument: "iterations", reason })
@@ -140,10 +148,10 @@ pub extern "C" fn azulejo_set_advance(set: &mut Set, iterations: u32) -> i32 {
 /// Fills a set on a mesh; the answer has the number of samples that it added.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_set_fill(set: &mut Set) -> i32 {
-    call(|context| {
+    call(|context, progress| {
         let added = match set {
-            Set::Growing(set) => set.fill(context, None)?.accepted as f64,
-            _ => edit!(set, set => set.refill(context, set.seed(), None)?.count() as f64),
+            Set::Growing(set) => set.fill(context, progress)?.accepted as f64,
+            _ => edit!(set, set => set.refill(context, set.seed(), progress)?.count() as f64),
         };
         Ok(Answer::default().and(vec![added]))
     })
@@ -152,7 +160,7 @@ pub extern "C" fn azulejo_set_fill(set: &mut Set) -> i32 {
 /// The samples, with their ids once the set has been edited.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_set_points(set: &Set) -> i32 {
-    call(|_| {
+    call(|_, _| {
         Ok(match set {
             Set::Plane(set) => edited(set.samples()),
             Set::Growing(set) => edited(set.samples()),
@@ -175,7 +183,7 @@ pub struct Bounds {
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_set_erase(set: &mut Set, bounds: &Bounds) -> i32 {
     let &Bounds { min, max, centre, radius } = bounds;
-    call(|_| edit!(set, set => Ok(edited(set.erase(&Region { min, max, centre, radius })?))))
+    call(|_, _| edit!(set, set => Ok(edited(set.erase(&Region { min, max, centre, radius })?))))
 }
 
 /// Erases samples by their ids, and returns them.
@@ -186,7 +194,7 @@ pub extern "C" fn azulejo_set_erase(set: &mut Set, bounds: &Bounds) -> i32 {
 pub unsafe extern "C" fn azulejo_set_erase_ids(set: &mut Set, ids: *const f64, count: usize) -> i32 {
     // SAFETY: guaranteed by the caller.
     let ids = unsafe { rows(ids, count) };
-    call(|_| {
+    call(|_, _| {
         let ids = whole(ids)?;
         edit!(set, set => Ok(edited(set.erase_ids(&ids)?)))
     })
@@ -212,7 +220,7 @@ pub unsafe extern "C" fn azulejo_set_restore(
     let (positions, triangles) = unsafe { (rows(positions, count), rows(triangles, triangle_count)) };
     // SAFETY: likewise.
     let (barycentrics, ids) = unsafe { (rows(barycentrics, barycentric_count), rows(ids, id_count)) };
-    call(|_| {
+    call(|_, _| {
         let ids = whole(ids)?;
         edit!(set, set => {
             let mut points = Points::from(positions.as_chunks().0.to_vec());
@@ -239,7 +247,7 @@ pub unsafe extern "C" fn azulejo_set_add_given(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let (positions, clearances) = unsafe { (rows(positions, count), rows(clearances, clearance_count)) };
-    call(|_| {
+    call(|_, _| {
         edit!(set, set => {
             let (first, erased) = set.add_given(given_of(positions.as_chunks().0, clearances))?;
             Ok(edited(erased).and(vec![first as f64]))
@@ -255,7 +263,7 @@ pub unsafe extern "C" fn azulejo_set_add_given(
 pub unsafe extern "C" fn azulejo_set_remove_given(set: &mut Set, ids: *const f64, count: usize) -> i32 {
     // SAFETY: guaranteed by the caller.
     let ids = unsafe { rows(ids, count) };
-    call(|_| {
+    call(|_, _| {
         let ids = whole(ids)?;
         edit!(set, set => set.remove_given(&ids)?);
         Ok(Answer::default())
@@ -265,7 +273,7 @@ pub unsafe extern "C" fn azulejo_set_remove_given(set: &mut Set, ids: *const f64
 /// Makes the set maximal again; the answer has the samples that were added.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_set_refill(set: &mut Set, seed: u64) -> i32 {
-    call(|context| edit!(set, set => Ok(set.refill(context, seed, None)?.answer())))
+    call(|context, progress| edit!(set, set => Ok(set.refill(context, seed, progress)?.answer())))
 }
 
 /// What a refill returns.

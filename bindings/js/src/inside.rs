@@ -3,7 +3,7 @@
 use azulejo::volume::{Amount, InsideOptions, Surface, sample_inside};
 
 use crate::answer::{Answer, call};
-use crate::surface::Handle;
+use crate::mesh::Handle;
 use crate::{given, order};
 
 /// The options of a set, as JavaScript lays them out.
@@ -34,7 +34,7 @@ pub unsafe extern "C" fn azulejo_volume_sample_inside(
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     let &VolumeInsideOptions { radius, count, surface_first, tolerance, progressive, quotient } = options;
-    call(|context| {
+    call(|context, progress| {
         let amount = if count > 0.0 { Amount::Count(count as usize) } else { Amount::Radius(radius) };
         let options = InsideOptions::of(amount)
             .surface(if surface_first == 0.0 { Surface::Open } else { Surface::First })
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn azulejo_volume_sample_inside(
             .order(order((progressive != 0.0).into()))
             .quotient(quotient)
             .given(given);
-        let (samples, report) = sample_inside(context, &mesh.0, &options, None)?;
+        let (samples, report) = sample_inside(context, &mesh.0, &options, progress)?;
         let report = vec![report.radius, report.covering_radius, report.depth, report.surface_samples as f64];
         Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))
     })

@@ -11,11 +11,16 @@ mod inside;
 mod mask;
 mod memory;
 mod merge;
+mod mesh;
 mod plane;
+mod relax;
+mod spectrum;
+mod stream;
 mod surface;
 mod surface_varying;
 mod thin;
 mod volume;
+mod watch;
 
 use azulejo::{Boundary, Domain, Given, Order};
 

@@ -17,8 +17,8 @@ pub extern "C" fn azulejo_mask_create(
     sigma: f64,
 ) -> i32 {
     let options = Options::new(width as usize, height as usize).depth(depth as usize).channels(channels as usize);
-    call(|context| {
-        let (mask, _) = create(context, &options.seed(seed).sigma(sigma), None)?;
+    call(|context, progress| {
+        let (mask, _) = create(context, &options.seed(seed).sigma(sigma), progress)?;
         Ok(Answer::default().and(mask.ranks))
     })
 }
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn azulejo_mask_dither(
         // SAFETY: likewise.
         _ => Pixels::Bytes(unsafe { rows(values, count) }),
     };
-    call(|_| {
+    call(|_, _| {
         let mask = Mask::from_ranks([width, height, depth], channels, ranks.to_vec())?;
         let image = Image { size: [image_width, image_height, image_depth], channels: image_channels, pixels };
         let dithered = mask.dither(&image, levels).map_err(|error| match error {

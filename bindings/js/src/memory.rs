@@ -36,3 +36,12 @@ pub(crate) unsafe fn rows<'a, T>(pointer: *const T, count: usize) -> &'a [T] {
     // SAFETY: guaranteed by the caller.
     if count == 0 { &[] } else { unsafe { std::slice::from_raw_parts(pointer, count) } }
 }
+
+/// The rows of an argument that may be left out, and then is null.
+///
+/// # Safety
+/// As [`rows`], or null.
+pub(crate) unsafe fn optional<'a, T>(pointer: *const T, count: usize) -> Option<&'a [T]> {
+    // SAFETY: guaranteed by the caller.
+    (!pointer.is_null()).then(|| unsafe { rows(pointer, count) })
+}

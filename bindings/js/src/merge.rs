@@ -33,7 +33,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
     let (counts, corners) = unsafe { (rows(counts, piece_count), rows(corners, piece_count)) };
     // SAFETY: guaranteed by the caller.
     let (mut rest, fixed) = unsafe { (rows(positions, position_count), rows(fixed, fixed_count)) };
-    call(|context| {
+    call(|context, progress| {
         let options = MergeOptions::new(radius)
             .domain(domain(min_x, min_y, max_x, max_y, bounded))
             .seed(seed)
@@ -44,7 +44,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge(
             pieces.push(Piece { samples, min, max });
             rest = after;
         }
-        let (set, report) = merge(context, &options, &pieces, fixed, None)?;
+        let (set, report) = merge(context, &options, &pieces, fixed, progress)?;
         let report = [report.kept, report.eliminated, report.inserted].map(|count| count as f64);
         Ok(Answer::default().and(set.positions).and(report.to_vec()))
     })

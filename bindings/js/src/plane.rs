@@ -1,6 +1,5 @@
-//! Sets of the plane, and their relaxation.
+//! Sets of the plane.
 
-use azulejo::dcr::{self, Neighbourhood};
 use azulejo::kdrt::{self, CountOptions, Kind, Options, Plane, Progressive};
 use azulejo::{Boundary, Classes, Domain, Given, maximal};
 
@@ -74,13 +73,13 @@ pub unsafe extern "C" fn azulejo_kdrt_sample(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
-    call(|context| {
+    call(|context, progress| {
         if options.count > 0.0 {
-            let (set, report) = kdrt::sample_count(context, &options.by_count(seed), None)?;
+            let (set, report) = kdrt::sample_count(context, &options.by_count(seed), progress)?;
             let report = vec![report.radius, f64::from(u8::from(report.is_maximal))];
             return Ok(Answer::default().and(set.positions).and(set.ranks).and(report));
         }
-        let set = kdrt::sample(context, &options.by_radius(seed, given), None)?;
+        let set = kdrt::sample(context, &options.by_radius(seed, given), progress)?;
         Ok(Answer::default().and(set.positions).and(set.ranks).and(vec![options.radius, 1.0]))
     })
 }
@@ -102,9 +101,9 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
-    call(|context| {
+    call(|context, progress| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
-        let set = kdrt::sample(context, &options.by_classes(&classes, seed, given), None)?;
+        let set = kdrt::sample(context, &options.by_classes(&classes, seed, given), progress)?;
         Ok(Answer::default().and(set.positions).and(set.classes).and(set.ranks))
     })
 }
@@ -120,9 +119,9 @@ pub extern "C" fn azulejo_maximal_sample(
     bounded: i32,
     seed: u64,
 ) -> i32 {
-    call(|context| {
+    call(|context, progress| {
         let options = maximal::Options::new(radius).domain(domain(min_x, min_y, max_x, max_y, bounded)).seed(seed);
-        Ok(Answer::default().and(maximal::sample(context, &options, None)?.positions))
+        Ok(Answer::default().and(maximal::sample(context, &options, progress)?.positions))
     })
 }
 
@@ -134,7 +133,7 @@ pub extern "C" fn azulejo_maximal_sample(
 pub unsafe extern "C" fn azulejo_classes_radii(own: *const f64, count: usize, factor: f64) -> i32 {
     // SAFETY: guaranteed by the caller.
     let own = unsafe { rows(own, count) };
-    call(|_| Ok(Answer::default().and(Classes::of_radii(own, factor)?.radii().to_vec())))
+    call(|_, _| Ok(Answer::default().and(Classes::of_radii(own, factor)?.radii().to_vec())))
 }
 
 /// Keeps the state that all windows of a plane share, of several classes if there are radii of theirs; the answer is empty, the handle is in `out`.
@@ -155,12 +154,12 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
-    call(|context| {
+    call(|context, progress| {
         let plane = match radii {
-            [] => Plane::new(context, &options.by_radius(seed, given), None)?,
+            [] => Plane::new(context, &options.by_radius(seed, given), progress)?,
             _ => {
                 let classes = Classes::new(radii.len().isqrt(), radii)?;
-                Plane::new(context, &options.by_classes(&classes, seed, given), None)?
+                Plane::new(context, &options.by_classes(&classes, seed, given), progress)?
             }
         };
         *out = Some(Box::new(plane));
@@ -171,7 +170,7 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 /// The samples in a window, their ranks and their classes.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_kdrt_window(plane: &Plane, min_x: f64, min_y: f64, max_x: f64, max_y: f64) -> i32 {
-    call(|_| {
+    call(|_, _| {
         let set = plane.window([min_x, min_y], [max_x, max_y])?;
         Ok(Answer::default().and(set.positions).and(set.ranks).and(set.classes))
     })
@@ -181,76 +180,4 @@ pub extern "C" fn azulejo_kdrt_window(plane: &Plane, min_x: f64, min_y: f64, max
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_kdrt_free(plane: Option<Box<Plane>>) {
     drop(plane);
-}
-
-/// The relaxed points; the number of iterations, the reason for stopping, motion, smallest distance, rho and relative covering radius.
-///
-/// # Safety
-/// `points` is valid for reads of `count` points.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_dcr_relax(
-    min_x: f64,
-    min_y: f64,
-    max_x: f64,
-    max_y: f64,
-    bounded: i32,
-    nearest: i32,
-    max_iterations: u32,
-    tolerance: f64,
-    seed: u64,
-    points: *const [f32; 2],
-    count: usize,
-) -> i32 {
-    // SAFETY: guaranteed by the caller.
-    let points = unsafe { rows(points, count) };
-    call(|context| {
-        let neighbourhood = if nearest == 0 { Neighbourhood::Delaunay } else { Neighbourhood::Nearest };
-        let options = dcr::Options::new(domain(min_x, min_y, max_x, max_y, bounded), neighbourhood)
-            .max_iterations(max_iterations)
-            .tolerance(tolerance)
-            .seed(seed);
-        let (relaxed, report) = dcr::relax(context, &options, points, None)?;
-        Ok(Answer::default().and(relaxed).and(relaxation(&report)))
-    })
-}
-
-/// The relaxed points of several classes, the numbers of [`relaxation`], rho of each class, and the relative covering radius of
-/// each.
-///
-/// # Safety
-/// The pointers are valid for reads of so many points and classes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn azulejo_dcr_relax_classes(
-    min_x: f64,
-    min_y: f64,
-    max_x: f64,
-    max_y: f64,
-    bounded: i32,
-    max_iterations: u32,
-    tolerance: f64,
-    seed: u64,
-    points: *const [f32; 2],
-    count: usize,
-    classes: *const u32,
-    class_count: usize,
-) -> i32 {
-    // SAFETY: guaranteed by the caller.
-    let (points, classes) = unsafe { (rows(points, count), rows(classes, class_count)) };
-    call(|context| {
-        let options = dcr::DelaunayOptions::new(domain(min_x, min_y, max_x, max_y, bounded))
-            .max_iterations(max_iterations)
-            .tolerance(tolerance)
-            .seed(seed);
-        let (relaxed, report, each) = dcr::relax_classes(context, &options, points, classes, None)?;
-        let rho: Vec<f64> = each.iter().map(|class| class.rho).collect();
-        let covering: Vec<f64> = each.iter().map(|class| class.relative_covering_radius).collect();
-        Ok(Answer::default().and(relaxed).and(relaxation(&report)).and(rho).and(covering))
-    })
-}
-
-/// The number of iterations, the reason for stopping, motion, smallest distance, rho and relative covering radius.
-pub(crate) fn relaxation(report: &dcr::Report) -> Vec<f64> {
-    let dcr::Report { motion, smallest_distance, rho, relative_covering_radius, .. } = *report;
-    let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
-    vec![iterations, stopped, motion, smallest_distance, rho, relative_covering_radius]
 }

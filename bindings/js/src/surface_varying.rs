@@ -6,7 +6,8 @@ use azulejo::{Classes, Error, Result};
 
 use crate::answer::call;
 use crate::memory::rows;
-use crate::surface::{Handle, answer};
+use crate::mesh::Handle;
+use crate::surface::{answer, numbers};
 use crate::{given, order};
 
 /// The options of a set, as JavaScript lays them out.
@@ -53,7 +54,7 @@ impl VaryingOptions {
     }
 }
 
-/// The samples of a varying radius; the radius of each, and what they are multiplied by.
+/// The samples of a varying radius; the radius of each, and [`numbers`], of which the radius is what they are multiplied by.
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -75,7 +76,7 @@ pub unsafe extern "C" fn azulejo_psp_adaptive(
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     // SAFETY: likewise.
     let (values, texture) = unsafe { (rows(values, value_count), rows(texture, texture_count)) };
-    call(|context| {
+    call(|context, progress| {
         let radius = options.radius(mesh, values, texture)?.unwrap_or(Radius::PerVertex(values));
         let request = adaptive::Options::new(radius)
             .order(order((options.progressive != 0.0).into()))
@@ -83,13 +84,14 @@ pub unsafe extern "C" fn azulejo_psp_adaptive(
             .cosine(options.cosine)
             .seed(seed)
             .given(given);
-        let (mut samples, report) = adaptive::sample(context, &mesh.0, &request, None)?;
+        let (mut samples, report) = adaptive::sample(context, &mesh.0, &request, progress)?;
         let radii = std::mem::take(&mut samples.radii);
-        Ok(answer(samples).and(radii).and(vec![report.radius]))
+        Ok(answer(samples).and(radii).and(numbers(&report)))
     })
 }
 
-/// The samples of several classes; the class of each and, if there is a varying radius that is the unit of theirs, this one.
+/// The samples of several classes; the class of each and, if there is a varying radius that is the unit of theirs, this one; and
+/// [`numbers`].
 ///
 /// # Safety
 /// The pointers are to arguments of these sizes.
@@ -117,7 +119,7 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
     let (values, texture) = unsafe { (rows(values, value_count), rows(texture, texture_count)) };
     // SAFETY: likewise.
     let (radii, masks) = unsafe { (rows(radii, radius_count), rows(masks, mask_count)) };
-    call(|context| {
+    call(|context, progress| {
         let classes = Classes::new(radii.len().isqrt(), radii)?;
         let request = ClassOptions::default()
             .order(order((options.progressive != 0.0).into()))
@@ -127,8 +129,8 @@ pub unsafe extern "C" fn azulejo_psp_sample_classes(
             .given(given)
             .unit(options.radius(mesh, values, texture)?);
         let masks = (!masks.is_empty()).then_some(masks);
-        let (mut samples, _) = sample_classes(context, &mesh.0, &request, &classes, masks, None)?;
+        let (mut samples, report) = sample_classes(context, &mesh.0, &request, &classes, masks, progress)?;
         let (classes, radii) = (std::mem::take(&mut samples.classes), std::mem::take(&mut samples.radii));
-        Ok(answer(samples).and(classes).and(radii))
+        Ok(answer(samples).and(classes).and(radii).and(numbers(&report)))
     })
 }

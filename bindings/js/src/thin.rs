@@ -22,11 +22,11 @@ pub unsafe extern "C" fn azulejo_thin(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let positions = unsafe { rows(positions, count * dimensions as usize) };
-    call(|context| {
+    call(|context, progress| {
         let options = Options::by_radius(radius).count(most as usize).order(order(progressive)).seed(seed);
         let selection = match dimensions {
-            2 => thin(context, &options, positions.as_chunks::<2>().0, None)?,
-            _ => thin(context, &options, positions.as_chunks::<3>().0, None)?,
+            2 => thin(context, &options, positions.as_chunks::<2>().0, progress)?,
+            _ => thin(context, &options, positions.as_chunks::<3>().0, progress)?,
         };
         Ok(Answer::default().and(selection.indices).and(selection.ranks))
     })

@@ -1,9 +1,12 @@
-//! Sets of cuboids.
+//! Sets of cuboids, and their relaxation.
 
+use azulejo::dcr::volume as dcr;
 use azulejo::volume::{Amount, Options, sample};
 use azulejo::{Boundary, Domain};
 
+use crate::analysis::Cuboid;
 use crate::answer::{Answer, call};
+use crate::memory::rows;
 use crate::{given, order};
 
 /// The options of a set, as JavaScript lays them out.
@@ -34,7 +37,7 @@ pub unsafe extern "C" fn azulejo_volume_sample(
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
     let &VolumeOptions { radius, count, min, max, bounded, progressive, quotient } = options;
-    call(|context| {
+    call(|context, progress| {
         let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
         let amount = if count > 0.0 { Amount::Count(count as usize) } else { Amount::Radius(radius) };
         let options = Options::of(amount)
@@ -43,8 +46,32 @@ pub unsafe extern "C" fn azulejo_volume_sample(
             .order(order((progressive != 0.0).into()))
             .quotient(quotient)
             .given(given);
-        let (samples, report) = sample(context, &options, None)?;
+        let (samples, report) = sample(context, &options, progress)?;
         let report = vec![report.radius, report.covering_radius];
         Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))
+    })
+}
+
+/// The relaxed points; the number of iterations, the reason for stopping, motion, smallest distance and rho.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_relax(
+    cuboid: &Cuboid,
+    max_iterations: u32,
+    tolerance: f64,
+    seed: u64,
+    points: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context, progress| {
+        let options = dcr::Options::new(cuboid.domain()).max_iterations(max_iterations).tolerance(tolerance).seed(seed);
+        let (relaxed, report) = dcr::relax(context, &options, points, progress)?;
+        let dcr::Report { motion, smallest_distance, rho, .. } = report;
+        let numbers = vec![report.iterations.into(), f64::from(report.stopped as u8), motion, smallest_distance, rho];
+        Ok(Answer::default().and(relaxed).and(numbers))
     })
 }

@@ -1,57 +1,11 @@
 // The package against naive oracles: all pairs, and points of a fine grid; and the sums of tests/sums.txt.
 import assert from "node:assert/strict";
-import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
+import { apart, covering, hasSum, interpolated, smallest, sumsTorus, torus, wrapped } from "./oracles.js";
 
 before(() => azulejo.init());
-
-const wrapped = (d) => d - Math.round(d);
-
-// The smallest distance of all pairs; on the unit torus where `wrap` says so.
-function smallest(positions, width, wrap = (d) => d) {
-    let least = Infinity;
-    for (let i = 0; i < positions.length; i += width) {
-        for (let j = 0; j < i; j += width) {
-            let squared = 0;
-            for (let axis = 0; axis < width; axis++) squared += wrap(positions[i + axis] - positions[j + axis]) ** 2;
-            least = Math.min(least, squared);
-        }
-    }
-    return Math.sqrt(least);
-}
-
-// The largest distance of a point of a grid of the unit square from the set.
-function covering(positions, wrap, cells = 150) {
-    let most = 0;
-    for (let x = 0.5 / cells; x < 1; x += 1 / cells) {
-        for (let y = 0.5 / cells; y < 1; y += 1 / cells) {
-            let least = Infinity;
-            for (let i = 0; i < positions.length; i += 2) {
-                least = Math.min(least, wrap(x - positions[i]) ** 2 + wrap(y - positions[i + 1]) ** 2);
-            }
-            most = Math.max(most, least);
-        }
-    }
-    return Math.sqrt(most);
-}
-
-// A torus of radii 1 and 0.4.
-function torus(columns = 48, rows = 24) {
-    const positions = [], indices = [];
-    const vertex = (column, row) => (column % columns) * rows + (row % rows);
-    for (let column = 0; column < columns; column++) {
-        for (let row = 0; row < rows; row++) {
-            const [a, b] = [(2 * Math.PI * column) / columns, (2 * Math.PI * row) / rows];
-            const radius = 1 + 0.4 * Math.cos(b);
-            positions.push(radius * Math.cos(a), radius * Math.sin(a), 0.4 * Math.sin(b));
-            const [near, far] = [vertex(column, row), vertex(column + 1, row + 1)];
-            indices.push(near, vertex(column + 1, row), far, near, far, vertex(column, row + 1));
-        }
-    }
-    return new azulejo.Mesh(positions, indices);
-}
 
 test("sets of the plane are conflict-free, maximal and the same each time", () => {
     for (const [boundary, wrap] of [["periodic", wrapped], ["bounded", (d) => d]]) {
@@ -83,6 +37,30 @@ test("sets of a cuboid are measured", () => {
         assert.ok(azulejo.spaceMeasure(positions, { boundary, radius: 0.16 }).gaps > 0);
         assert.throws(() => azulejo.spaceMeasure(positions, { boundary, radius: -1 }), /radius/);
     }
+});
+
+test("points of a cuboid are relaxed", () => {
+    const start = azulejo.volumeSample({ count: 400 }).positions;
+    for (const [boundary, wrap] of [["periodic", wrapped], ["bounded", (d) => d]]) {
+        const { positions, rho, smallestDistance, iterations } = azulejo.volumeRelax(start, { boundary });
+        assert.equal(positions.length, start.length);
+        assert.ok(Math.abs(smallest(positions, 3, wrap) / smallestDistance - 1) < 1e-9);
+        assert.ok(Math.abs(rho - smallestDistance / Math.cbrt(Math.SQRT2 / 400)) < 1e-9 && rho > 0.88 && iterations <= 100);
+        assert.deepEqual(azulejo.volumeRelax(start, { boundary, maxIterations: 0 }).positions, start);
+        assert.throws(() => azulejo.volumeRelax([2, 0, 0], { boundary }), /positions/);
+    }
+});
+
+test("points are relaxed to the spectrum of a step", () => {
+    const correlation = azulejo.dcrCorrelationOfPower([0], 0.5);
+    assert.equal(correlation.length, 480);
+    assert.ok(correlation.every((value) => value > -1e-3) && Math.abs(correlation.at(-1) - 1) < 0.05);
+    const start = azulejo.kdrtSample({ count: 1000 }).positions;
+    const { positions, residual } = azulejo.dcrRelaxToCorrelation(start, correlation, 12);
+    assert.ok(residual <= 0.02, `${residual}`);
+    assert.notDeepEqual(positions, start);
+    assert.throws(() => azulejo.dcrRelaxToCorrelation(start, correlation, 12, { boundary: "bounded" }), /boundary/);
+    assert.throws(() => azulejo.dcrRelaxToCorrelation(start, correlation, -1), /reach/);
 });
 
 test("counts are exact, progressive sets have ranks that their prefixes keep", () => {
@@ -186,13 +164,6 @@ function classRadii(own, factor = 1) {
         i === j ? a : (factor * smallestOwn) / Math.sqrt(density(Math.min(a, b)))));
 }
 
-// A distance in space.
-function apart(positions, i, j) {
-    let squared = 0;
-    for (let axis = 0; axis < 3; axis++) squared += (positions[3 * i + axis] - positions[3 * j + axis]) ** 2;
-    return Math.sqrt(squared);
-}
-
 test("classes on meshes keep their distances, masks and ranks, and follow densities", () => {
     const positions = [], indices = [];
     // A square of 8 by 8 quads.
@@ -235,35 +206,6 @@ test("classes on meshes keep their distances, masks and ranks, and follow densit
     assert.ok(smallest(first, 3) >= ordered.ranks[own[19]]);
     mesh.free();
 });
-
-// The closed torus of tests/sums/surface.rs: its positions, indices and normals.
-function sumsTorus(columns = 96, rows = 64) {
-    const positions = [], indices = [], normals = [];
-    for (let column = 0; column < columns; column++) {
-        for (let row = 0; row < rows; row++) {
-            const [hole, tube] = [(2 * Math.PI * column) / columns, (2 * Math.PI * row) / rows];
-            const [east, north, radius] = [Math.cos(hole), Math.sin(hole), 1 + 0.4 * Math.cos(tube)];
-            positions.push(radius * east, radius * north, 0.4 * Math.sin(tube));
-            normals.push(Math.cos(tube) * east, Math.cos(tube) * north, Math.sin(tube));
-            const vertex = (c, r) => (c % columns) * rows + (r % rows);
-            const [near, far] = [vertex(column, row), vertex(column + 1, row + 1)];
-            indices.push(near, vertex(column + 1, row), far, near, far, vertex(column, row + 1));
-        }
-    }
-    return [Float32Array.from(positions), indices, Float32Array.from(normals)];
-}
-
-// The normals of vertices at samples, as the library interpolates them.
-function interpolated({ triangles, barycentrics }, indices, normals) {
-    return Float32Array.from([...triangles].flatMap((triangle, i) => {
-        const [u, v] = barycentrics.subarray(2 * i, 2 * i + 2);
-        const weights = [1 - u - v, u, v];
-        const corner = (k, axis) => weights[k] * normals[3 * indices[3 * triangle + k] + axis];
-        const [x, y, z] = [0, 1, 2].map((axis) => corner(0, axis) + corner(1, axis) + corner(2, axis));
-        const shorter = 1 / Math.sqrt(x * x + y * y + z * z);
-        return [x * shorter, y * shorter, z * shorter];
-    }));
-}
 
 test("classes on meshes and sets that follow a density have the bytes of the Rust calls", () => {
     const [positions, indices, normals] = sumsTorus();
@@ -453,17 +395,6 @@ function coveringInSpace(positions, low, high, wrap, cells = 20) {
         most = Math.max(most, least);
     }
     return Math.sqrt(most);
-}
-
-// Whether arrays of a result have the sum of a line of tests/sums.txt.
-function hasSum(name, ...arrays) {
-    const sums = String(readFileSync(new URL("../../../tests/sums.txt", import.meta.url))).split("\n");
-    const line = sums.find((line) => line.slice(66).startsWith(`${name} (`));
-    const hash = createHash("sha256");
-    for (const { buffer, byteOffset, byteLength } of arrays.filter((array) => array.length > 0)) {
-        hash.update(new Uint8Array(buffer, byteOffset, byteLength));
-    }
-    return line.startsWith(hash.digest("hex"));
 }
 
 test("sets inside meshes are conflict-free, maximal below the surface, and of closed meshes alone", () => {
@@ -767,4 +698,28 @@ test("masks are permutations, the same as everywhere, and refused by the names o
         assert.throws(() => azulejo.maskCreate({ width: 8, height: 8, [name]: value }), new RegExp(`${name}: `));
     }
     assert.throws(() => azulejo.maskCreate({ height: 8 }), /width: /);
+});
+
+test("every call of the Python package is here, by the same name in camel case", () => {
+    const stubs = String(readFileSync(new URL("../../python/azulejo.pyi", import.meta.url)));
+    const camel = (name) => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
+    const functions = [...stubs.matchAll(/^def (\w+)\(/gm)].map(([, name]) => camel(name));
+    assert.ok(functions.length > 35);
+    for (const name of functions) assert.equal(typeof azulejo[name], "function", name);
+    // Mesh.parse takes the bytes of the file that Mesh.load opens.
+    const others = { load: "parse" };
+    const classes = ["KdrtPlane", "Plane", "Mesh", "Psp", "Spectrum", "Differences"];
+    let methods = 0;
+    for (const [, name, body] of stubs.matchAll(/^class (\w+)\b.*:\n((?:    .*\n|\n)*)/gm)) {
+        // Reports, arrays of samples and protocols are plain objects here.
+        if (!classes.includes(name)) continue;
+        for (const [, decorator, method] of body.matchAll(/(?:    @(\w+)\n)?    def ([a-z]\w*)\(/g)) {
+            if (decorator === "property") continue;
+            const place = decorator === "staticmethod" ? azulejo[name] : azulejo[name].prototype;
+            assert.equal(typeof place[camel(others[method] ?? method)], "function", `${name}.${method}`);
+            methods++;
+        }
+    }
+    assert.ok(methods > 25, `${methods}`);
+    assert.equal(new azulejo.Cancelled().name, "Cancelled");
 });
