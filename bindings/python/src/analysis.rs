@@ -343,11 +343,11 @@ report! {
         angles_below_30_degrees: f64,
         /// The mean length of their edges.
         edge_mean: f64,
-        /// The standard deviation of the lengths over their mean.
+        /// The variance of the lengths over their squared mean.
         edge_variation: f64,
-        /// The standard deviation of the areas over their mean.
+        /// The variance of the areas over their squared mean.
         area_variation: f64,
-        /// The share of edges whose length is more than 4 standard deviations from the mean.
+        /// The share of triangles whose area is farther than 4 standard deviations from the mean.
         beyond_4_sigma: f64,
     }
 }
