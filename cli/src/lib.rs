@@ -15,6 +15,7 @@ mod merge;
 #[cfg(test)]
 mod option_table;
 pub mod output;
+mod photo;
 mod ply;
 pub mod procedural;
 mod program;

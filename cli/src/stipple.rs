@@ -22,8 +22,8 @@ use drawing::Drawing;
 
 #[derive(Args)]
 pub(crate) struct Stipple {
-    /// The image: a PNG file. Colours count by their luminance unless there is `--cmyk`; transparent parts are white.
-    #[arg(value_name = "IMAGE.png")]
+    /// The image: a PNG or JPEG file. Colours count by their luminance unless there is `--cmyk`; transparent parts are white.
+    #[arg(value_name = "IMAGE.png|jpg")]
     image: PathBuf,
     /// The dots, in pixels of the image, with y downwards: a drawing (SVG), a picture (PNG) or the centres alone (PLY).
     #[arg(short, long, value_name = "FILE.svg|png|ply")]

@@ -151,6 +151,7 @@ fn several_files_are_averaged() {
 }
 
 #[test]
+#[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
 fn every_plot_is_drawn() {
     let workshop = Workshop::new();
     workshop.succeed(&["plane", "--count", "2000", "--domain", "0", "0", "4", "1", "--bounded", "-o", "a.ply"]);

@@ -82,7 +82,7 @@ fn what_is_wrong_is_named() {
         (&["-o", "a.jpg"][..], "a.jpg: the extension names no format of masks"),
         (&["-o", "a.png", "--channels", "5"], "a.png: a PNG file has up to 4 channels"),
         (&["-o", "a.raw", "--dither", "text.png"], "a.raw: a halftone is written as PNG"),
-        (&["-o", "a.png", "--dither", "text.png"], "text.png: is no PNG file"),
+        (&["-o", "a.png", "--dither", "text.png"], "text.png: is neither a PNG nor a JPEG file"),
         (&["-o", "a.png", "--sigma", "nan"], "sigma: NaN is not in 0.5..=4"),
         (&["-o", "a.png", "--depth", "65"], "depth: 65 is not in 1..=64"),
         (&["-o", "a.png", "--channels", "0"], "channels: 0 is not in 1..=64"),

@@ -57,6 +57,7 @@ fn a_large_set_is_drawn_in_part_and_a_strange_one_as_it_is() {
 }
 
 #[test]
+#[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
 fn samples_are_painted_on_their_mesh() {
     let workshop = Workshop::new();
     workshop.succeed(&["mesh", "knot", "--detail", "100", "-o", "knot.ply"]);
@@ -73,6 +74,7 @@ fn samples_are_painted_on_their_mesh() {
 }
 
 #[test]
+#[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
 fn one_looks_into_a_hall_that_is_cut_away() {
     let workshop = Workshop::new();
     workshop.succeed(&["mesh", "hall", "--detail", "16", "-o", "hall.ply"]);

@@ -60,6 +60,7 @@ mod streams {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
     fn a_dash_is_a_mesh_or_an_image_too() {
         let workshop = Workshop::new();
         let from = |file: &str, arguments: &[&str]| {

@@ -92,9 +92,11 @@ fn what_cannot_be_drawn_is_refused_with_its_name() {
     write_ramp(&workshop, "ramp.png");
     GrayImage::from_pixel(8, 8, Luma([255])).save(workshop.path("white.png")).unwrap();
     workshop.write("text.png", "no picture");
-    for (image, start) in
-        [("white.png", "white.png: "), ("text.png", "text.png: is no PNG file"), ("missing.png", "missing.png: ")]
-    {
+    for (image, start) in [
+        ("white.png", "white.png: "),
+        ("text.png", "text.png: is neither a PNG nor a JPEG file"),
+        ("missing.png", "missing.png: "),
+    ] {
         let said = workshop.refuse(&["stipple", image, "-o", "a.svg", "--count", "100"], 1);
         assert!(said.starts_with(&format!("error: {start}")), "{said}");
     }
@@ -199,4 +201,22 @@ fn dots_of_inks_keep_apart() {
     let refused =
         workshop.refuse(&["stipple", "bands.png", "--cmyk", "--no-relax", "-o", "a.svg", "--count", "500"], 2);
     assert!(refused.contains("--no-relax"), "{refused}");
+}
+
+/// A photograph gives the dots of the pixels that it holds, known by its contents, whatever it is called.
+#[test]
+fn photographs_are_read() {
+    let workshop = Workshop::new();
+    let photo = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/images/colour.jpg");
+    let bytes = fs::read(photo).unwrap();
+    fs::write(workshop.path("photo.png"), &bytes).unwrap();
+    for (image, output) in [(photo, "a.ply"), ("photo.png", "b.ply")] {
+        workshop.succeed(&["stipple", image, "-o", output, "--count", "300", "--iterations", "3"]);
+    }
+    let dots = fs::read(workshop.path("a.ply")).unwrap();
+    assert!(String::from_utf8_lossy(&dots[..200]).contains("comment domain 0 0 40 28 bounded\nelement vertex 300\n"));
+    assert!(dots == fs::read(workshop.path("b.ply")).unwrap());
+    fs::write(workshop.path("half.jpg"), &bytes[..bytes.len() / 2]).unwrap();
+    let said = workshop.refuse(&["stipple", "half.jpg", "-o", "a.svg", "--count", "100"], 1);
+    assert_eq!(said, "error: half.jpg: is a damaged JPEG file: it ends too early\n");
 }

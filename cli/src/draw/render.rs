@@ -232,6 +232,7 @@ mod tests {
     use std::ops::ControlFlow;
 
     #[test]
+    #[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
     fn a_square_shows_glaze_paint_and_the_page_around_it() {
         let stage = stage::tests::square([10.5, 5.5, 7.0]);
         let window = stage.camera.window_on(stage.positions(), 1.0, 0.5);

@@ -149,6 +149,7 @@ pub(super) mod tests {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
     fn a_mesh_is_brought_to_unit_size_and_seen_from_its_front() {
         let stage = square([10.0, 5.0, 7.0]);
         assert_eq!(stage.floor(), -0.5);
@@ -169,6 +170,7 @@ pub(super) mod tests {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
     fn a_cutaway_leaves_out_what_is_turned_away() {
         let positions = vec![[9.0, 4.0, 7.0], [11.0, 4.0, 7.0], [11.0, 6.0, 7.0], [9.0, 6.0, 7.0]];
         let context = Context::new(1).unwrap();
@@ -182,6 +184,7 @@ pub(super) mod tests {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
     fn normals_are_smooth_across_the_edges_of_a_mesh() {
         let positions = vec![[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -0.5], [-1.0, 0.0, -0.5]];
         let mesh = Mesh::new(positions, vec![[0, 2, 1], [0, 1, 3]]).unwrap();

@@ -134,6 +134,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg_attr(not(feature = "embree"), ignore = "pictures of meshes need Embree")]
     fn each_window_lies_within_the_one_before() {
         let [whole, middle, close] = windows(&crate::draw::stage::tests::square([10.0, 5.0, 7.0]));
         for (inner, outer) in [(middle, whole), (close, middle)] {

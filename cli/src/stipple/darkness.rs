@@ -1,17 +1,13 @@
 //! The darkness of an image: the share of the paper to cover with ink, with black or with each of four.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use azulejo::dcr::Density;
 use azulejo::{Boundary, Domain, Error, Result};
-use image::{DynamicImage, ImageFormat, ImageReader, Rgba};
+use image::{DynamicImage, Rgba};
 
 use super::inks::INKS;
-use crate::input;
-
-/// The largest side of an image.
-const LARGEST: u32 = 32_768;
+use crate::photo;
 
 /// The darkness of each pixel, row by row from the top: 0 is white and 1 black.
 pub struct Darkness {
@@ -25,14 +21,14 @@ impl Darkness {
         Self { values, width }
     }
 
-    /// The darkness of a PNG file. The light of a pixel is its grey value to the power of `gamma`.
+    /// The darkness of an image's file, PNG or JPEG. The light of a pixel is its grey value to the power of `gamma`.
     pub fn load(path: &Path, gamma: f64) -> Result<Self> {
         let darkness = Self::of(&load(path, gamma)?, gamma);
         check_ink(path, darkness.ink())?;
         Ok(darkness)
     }
 
-    /// The darkness of a PNG file for each ink ([`ABSORBS`](super::inks::ABSORBS)). Black is the part that red, green
+    /// The darkness of an image's file for each ink ([`ABSORBS`](super::inks::ABSORBS)). Black is the part that red, green
     /// and blue all lack; another ink takes the share of the remaining light by which its colour is darker than the
     /// lightest.
     pub fn load_inks(path: &Path, gamma: f64) -> Result<[Self; INKS]> {
@@ -108,27 +104,13 @@ impl Darkness {
     }
 }
 
-/// A PNG file; `gamma` is checked before.
+/// An image of a file; `gamma` is checked before.
 pub fn load(path: &Path, gamma: f64) -> Result<DynamicImage> {
     if !(gamma > 0.0 && gamma.is_finite()) {
         let reason = format!("{gamma} is not a positive finite number");
         return Err(Error::InvalidArgument { argument: "--gamma", reason });
     }
-    let io_error = |source| Error::Io { path: path.into(), source };
-    let format_error = |reason: String| Error::Format { path: path.into(), reason };
-    let file = Cursor::new(input::bytes(path)?);
-    // By the contents: the name proves nothing.
-    let mut reader = ImageReader::new(file).with_guessed_format().map_err(io_error)?;
-    if reader.format() != Some(ImageFormat::Png) {
-        return Err(format_error("is no PNG file".to_owned()));
-    }
-    let mut limits = image::Limits::default();
-    (limits.max_image_width, limits.max_image_height) = (Some(LARGEST), Some(LARGEST));
-    reader.limits(limits);
-    reader.decode().map_err(|error| match error {
-        image::ImageError::IoError(source) => io_error(source),
-        other => format_error(other.to_string()),
-    })
+    photo::read(path)
 }
 
 /// Refuses an image without ink.
