@@ -41,8 +41,8 @@ pub(crate) struct Masking {
     /// The standard deviation of the filter that finds voids and clusters, in pixels: 0.5 to 4.
     #[arg(long, value_name = "PIXELS", default_value_t = 1.5, allow_negative_numbers = true)]
     sigma: f64,
-    /// An image, a PNG file, that is dithered with the mask, grey or in colours; transparent parts are white.
-    #[arg(long, value_name = "IMAGE.png")]
+    /// An image, a PNG or JPEG file, that is dithered with the mask, grey or in colours; transparent parts are white.
+    #[arg(long, value_name = "IMAGE.png|jpg")]
     dither: Option<PathBuf>,
     /// The number of levels of a halftone, in each channel: 2 to 256, equal steps of light.
     #[arg(long, value_name = "N", default_value_t = 2, requires = "dither")]
