@@ -703,19 +703,19 @@ const ANALYSIS: &[Call] = &[
     Call {
         name: "analysis::coverage::coverage_3d",
         reports: 20,
-        run: |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE[..500], 0.05, p)),
+        run: |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, 0.05, p)),
         refused: &[("radius: ", |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, -0.05, p)))],
     },
     Call {
         name: "analysis::coverage::covering_radius_3d",
         reports: 10,
-        run: |c, p| said(covering_radius_3d(c, &CUBE, &IN_CUBE[..500], p)),
+        run: |c, p| said(covering_radius_3d(c, &CUBE, &IN_CUBE, p)),
         refused: &[("positions: ", |c, p| said(covering_radius_3d(c, &CUBE, &[[1.0; 3]], p)))],
     },
     Call {
         name: "analysis::figures_3d",
         reports: 20,
-        run: |c, p| said(figures_3d(c, &CUBE, &IN_CUBE[..500], 0.1, p)),
+        run: |c, p| said(figures_3d(c, &CUBE, &IN_CUBE, 0.1, p)),
         refused: &[
             ("positions: ", |c, p| said(figures_3d(c, &CUBE, &[[1.0; 3]], 0.1, p))),
             ("radius: ", |c, p| said(figures_3d(c, &CUBE, &IN_CUBE, -0.1, p))),
