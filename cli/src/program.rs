@@ -46,7 +46,7 @@ enum Command {
     Surface(generate::Surface),
     /// Fill a box with a maximal Poisson-disk set.
     Volume(generate::Volume),
-    /// Relax a set of the plane, or the samples of a mesh, by distance constraints (DCR).
+    /// Relax a set of the plane or of a box, or the samples of a mesh, by distance constraints (DCR).
     Relax(generate::Relax),
     /// Merge sets that were sampled separately into one maximal set (KDRT).
     Merge(merge::Merge),

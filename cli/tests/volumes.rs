@@ -8,6 +8,7 @@ mod ply;
 use std::fs;
 use std::sync::Arc;
 
+use azulejo::dcr::volume;
 use azulejo::mesh::Mesh;
 use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Given, Order};
@@ -51,6 +52,36 @@ fn volume_writes_a_maximal_set_and_its_cuboid() {
     let options = Options::new(0.15).seed(3);
     let (expected, _) = sample(&Context::new(1).unwrap(), &options, None).unwrap();
     assert!(points.iter().eq(expected.positions.iter()));
+}
+
+#[test]
+fn relax_spreads_the_points_of_a_cuboid() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["volume", "--count", "300", "--seed", "3", "-o", "a.ply"]);
+    let (_, points) = rows(&workshop, "a.ply", 3);
+    let points: Vec<[f32; 3]> = points.iter().map(|point| [0, 1, 2].map(|axis| point[axis])).collect();
+    for boundary in [Boundary::Periodic, Boundary::Bounded] {
+        let cuboid = ["--cuboid", "0", "0", "0", "1", "1", "1"];
+        let bounded: &[&str] = if boundary == Boundary::Bounded { &["--bounded"] } else { &[] };
+        let arguments = ["relax", "a.ply", "-o", "b.ply", "--iterations", "40", "--seed", "5"];
+        let said = workshop.succeed(&[&arguments[..], &cuboid, bounded].concat());
+        let options = volume::Options::new(Domain::unit(boundary)).max_iterations(40).seed(5);
+        let (expected, done) = volume::relax(&Context::new(1).unwrap(), &options, &points, None).unwrap();
+        let (header, relaxed) = rows(&workshop, "b.ply", 3);
+        assert!(relaxed.iter().eq(expected.iter()), "{boundary:?}");
+        let name = if boundary == Boundary::Bounded { "bounded" } else { "periodic" };
+        assert!(header.contains(&format!("comment domain 0 0 0 1 1 1 {name}\n")), "{header}");
+        assert!(
+            said.starts_with(&format!("b.ply: 300 samples, {} steps, smallest distance 0.", done.iterations)),
+            "{said}"
+        );
+        assert!(done.rho > 0.85, "{}", done.rho);
+    }
+    let said = workshop.refuse(&["relax", "a.ply", "-o", "c.ply", "--cuboid", "0", "0", "0", "0.5", "1", "1"], 1);
+    assert!(said.starts_with("error: a.ply: "), "{said}");
+    let both =
+        ["relax", "a.ply", "-o", "c.ply", "--cuboid", "0", "0", "0", "1", "1", "1", "--neighbourhood", "nearest"];
+    workshop.refuse(&both, 2);
 }
 
 #[test]

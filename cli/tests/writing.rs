@@ -12,7 +12,7 @@ struct Case {
     facts: &'static [&'static str],
 }
 
-const CASES: [Case; 13] = [
+const CASES: [Case; 14] = [
     Case { arguments: &["plane", "--radius", "0.2"], output: "a.ply", facts: &["samples", "radius"] },
     Case { arguments: &["plane", "--count", "50"], output: "a.npy", facts: &["samples", "radius", "maximal"] },
     Case { arguments: &["plane", "--classes", "0.2,0.1"], output: "a.csv", facts: &["samples", "classes"] },
@@ -38,6 +38,11 @@ const CASES: [Case; 13] = [
         facts: &["samples", "steps", "smallest_distance", "reached", "residual"],
     },
     Case {
+        arguments: &["relax", "box.csv", "--cuboid", "0", "0", "0", "1", "1", "1", "--iterations", "2"],
+        output: "a.ply",
+        facts: &["samples", "steps", "smallest_distance"],
+    },
+    Case {
         arguments: &["merge", "piece.ply", "--radius", "0.2"],
         output: "a.ply",
         facts: &["samples", "radius", "kept", "eliminated", "inserted"],
@@ -54,6 +59,7 @@ fn workshop() -> Workshop {
         &["plane", "--count", "100", "-o", "set.ply"][..],
         &["plane", "--radius", "0.2", "--bounded", "-o", "piece.ply"],
         &["mesh", "sphere", "--detail", "16", "-o", "sphere.ply"],
+        &["volume", "--count", "100", "-o", "box.csv"],
     ] {
         workshop.succeed(arguments);
     }

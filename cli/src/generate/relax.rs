@@ -1,9 +1,9 @@
-//! `azulejo relax`: sets of the plane and samples of meshes, relaxed.
+//! `azulejo relax`: sets of the plane and of cuboids, and samples of meshes, relaxed.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use azulejo::dcr::{self, CorrelationOptions, Neighbourhood, Stopped, surface};
+use azulejo::dcr::{self, CorrelationOptions, Neighbourhood, Stopped, surface, volume};
 use azulejo::mesh::Mesh;
 use azulejo::{Context, Domain, Error, Points, Progress, Result};
 use clap::{Args, ValueEnum};
@@ -12,7 +12,7 @@ use super::spectrum::Spectrum;
 use super::{Common, report};
 use crate::domain::DomainArgs;
 use crate::formats::points::PointTable;
-use crate::formats::set::ClassColumn;
+use crate::formats::set::{ClassColumn, SampleSet};
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{Input, ON_MESH, PointFile, blame};
 use crate::input;
@@ -40,6 +40,12 @@ pub struct Relax {
     remesh: Option<PathBuf>,
     #[command(flatten)]
     domain: DomainArgs,
+    /// The corners of the cuboid that the points fill, such as 0 0 0 1 1 1; a torus unless it is bounded.
+    #[arg(
+        long, num_args = 6, value_names = ["X0", "Y0", "Z0", "X1", "Y1", "Z1"], allow_negative_numbers = true,
+        conflicts_with_all = ["domain", "mesh", "neighbourhood", "spectrum"]
+    )]
+    cuboid: Option<Vec<f64>>,
     /// The neighbours that act on a point.
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
@@ -67,9 +73,36 @@ enum Neighbours {
 
 impl Relax {
     pub fn run(&self, context: &Context) -> Result<()> {
-        match &self.mesh {
-            Some(mesh) => self.run_on(context, mesh),
-            None => self.run_in_plane(context),
+        match (&self.mesh, self.cuboid.as_deref().and_then(|corners| corners.try_into().ok())) {
+            (Some(mesh), _) => self.run_on(context, mesh),
+            (None, Some(corners)) => self.run_in_cuboid(context, &self.domain.cuboid(corners)),
+            (None, None) => self.run_in_plane(context),
+        }
+    }
+
+    fn run_in_cuboid(&self, context: &Context, domain: &Domain<3>) -> Result<()> {
+        let output = self.common.destination.open_points()?;
+        let set = self.format.read_samples(&self.input, [0.0; 3])?;
+        self.refuse_classes(&set)?;
+        let mut options = volume::Options::new(*domain).seed(self.common.seed);
+        options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
+        let start = Instant::now();
+        let relax = |progress: &Progress| volume::relax(context, &options, &set.positions, Some(progress));
+        let (relaxed, done) = watched("relax", relax).map_err(|error| blame(&self.input, error))?;
+        let seconds = start.elapsed().as_secs_f64();
+        let class_radii = &[done.smallest_distance];
+        output.write_points(domain, &PointTable { class_radii, ..PointTable::of(&relaxed) })?;
+        report(&output.output, relaxed.len(), about(done.iterations, done.smallest_distance), seconds);
+        Ok(())
+    }
+
+    /// Refuses samples in space that have classes, unless they are to be ignored.
+    fn refuse_classes(&self, set: &SampleSet) -> Result<()> {
+        match self.classes(&set.classes)? {
+            None => Ok(()),
+            Some(_) => Err(self.refused(
+                "has classes, which are relaxed in the plane only: --no-classes takes the samples for one set",
+            )),
         }
     }
 
@@ -180,10 +213,7 @@ impl Relax {
             self.remesh.as_deref().map(|path| self.common.destination.writing.of_format("ply", path)).transpose()?;
         let mesh = input::mesh(mesh)?;
         let set = self.format.read_samples(&self.input, mesh.origin())?;
-        if self.classes(&set.classes)?.is_some() {
-            let reason = "has classes, which are relaxed in the plane only: --no-classes takes the samples for one set";
-            return Err(self.refused(reason));
-        }
+        self.refuse_classes(&set)?;
         let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| {
             self.refused("does not say on which triangle each sample is, and where: no triangle, u and v")
         })?;
