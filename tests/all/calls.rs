@@ -703,7 +703,7 @@ const ANALYSIS: &[Call] = &[
     Call {
         name: "analysis::coverage::coverage_3d",
         reports: 20,
-        run: |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, 0.05, p)),
+        run: |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, 0.12, p)),
         refused: &[("radius: ", |c, p| said(coverage_3d(c, &CUBE, &IN_CUBE, -0.05, p)))],
     },
     Call {
