@@ -56,11 +56,11 @@ impl Output {
         }
     }
 
-    /// The same for a file that does not exist yet; refuses one that does.
-    fn only_new(self) -> Result<Self> {
+    /// The same, which replaces a file that exists or refuses it.
+    fn replacing(self, replaces: bool) -> Result<Self> {
         match &self.target {
-            Target::File(path) if !self.target.is_stream() && path.exists() => Err(self.error(exists())),
-            _ => Ok(Self { replaces: false, ..self }),
+            Target::File(path) if !replaces && !self.target.is_stream() && path.exists() => Err(self.error(exists())),
+            _ => Ok(Self { replaces, ..self }),
         }
     }
 

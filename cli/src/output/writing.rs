@@ -18,14 +18,12 @@ pub struct Replacing {
 impl Replacing {
     /// [`Output::at`], which refuses a file that exists unless it is to be replaced.
     pub fn at(self, path: &Path) -> Result<Output> {
-        let output = Output::at(path)?;
-        if self.force { Ok(output) } else { output.only_new() }
+        Output::at(path)?.replacing(self.force)
     }
 
     /// [`Output::of_format`], which refuses a file that exists unless it is to be replaced.
     pub fn of_format(self, extension: &str, path: &Path) -> Result<Output> {
-        let output = Output::of_format(extension, path)?;
-        if self.force { Ok(output) } else { output.only_new() }
+        Output::of_format(extension, path)?.replacing(self.force)
     }
 }
 
