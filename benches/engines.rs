@@ -1,6 +1,6 @@
 //! The two engines of PSP: one iteration by criterion on a torus, then a table of both in one run.
 //!
-//! What counts is how many hits there are for each triangle: the rays of Embree cost the same whatever they hit, while the
+//! The number of hits for each triangle decides: the rays of Embree cost the same whatever they hit, while the
 //! rasteriser looks at each triangle, hit or not. The table takes tori from coarse to fine, a hall, and the bunny and the
 //! dragon (`AZULEJO_BENCH_DRAGON`, or out/dragon.ply, which the demo fetches) where they are found.
 

@@ -83,7 +83,7 @@ public:
     azulejo_status code() const noexcept { return code_; }
     /// The name of the code, such as "AZULEJO_ERROR_BUSY".
     const char *name() const noexcept { return azulejo_status_name(code_); }
-    /// Which argument is wrong, its value and its range; empty for AZULEJO_OK.
+    /// The argument that is wrong, its value and its range; empty for AZULEJO_OK.
     const std::string &message() const noexcept { return message_; }
 
 private:
@@ -961,7 +961,7 @@ struct Classes {
     std::uint32_t count = 0;
     /// count * count radii, row by row.
     std::vector<double> radii{};
-    /// Where each class may stand on a mesh; empty for everywhere. They stay the caller's.
+    /// The triangles on which each class may stand; empty for everywhere. They stay the caller's.
     Borrowed<Span<const std::uint32_t>> masks{};
 
     /// The smallest distance between samples of two classes.
@@ -1332,7 +1332,7 @@ public:
         return {azulejo_mesh_indices(get()), 3 * triangle_count()};
     }
     Span<const std::uint32_t> indices() const && = delete;
-    /// What positions are relative to, x y z; see azulejo_mesh_origin.
+    /// The origin to which positions are relative, x y z; see azulejo_mesh_origin.
     std::array<double, 3> origin() const noexcept {
         std::array<double, 3> found{};
         azulejo_mesh_origin(get(), found.data());
@@ -2277,7 +2277,7 @@ inline Status try_mesh_coverage(const Context &context, const Mesh &mesh,
     });
 }
 
-/// Whether each point is inside a mesh, 1 or 0; see azulejo_mesh_contains.
+/// Tests each point for lying inside a mesh, 1 or 0; see azulejo_mesh_contains.
 inline Status try_mesh_contains(const Context &context, const Mesh &mesh,
                                 const SpacePoints &positions, std::vector<std::uint8_t> &out) {
     if (Status s = positions.check("positions"); !s.ok()) return s;

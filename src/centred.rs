@@ -26,7 +26,7 @@ const SHARE: f64 = 1.0 / (1u32 << 20) as f64;
 /// The times that coordinates exceed the extent where floats round them by its share, less their own rounding.
 const FAR: f64 = 15.0;
 
-/// How many steps of the origin there are, at least, in the extent.
+/// The least number of steps of the origin in the extent.
 const STEPS: f64 = (1u32 << 10) as f64;
 
 impl<const D: usize> Centred<D> {

@@ -73,7 +73,7 @@ pub fn triangles(triangles: &[u32], count: usize) -> Result<()> {
     }
 }
 
-/// How far outside of a triangle barycentrics may be, by rounding.
+/// The distance outside of a triangle at which barycentrics may be, by rounding.
 const ROUNDING: f64 = 1e-6;
 
 /// Refuses places (`barycentrics`) outside of a triangle.

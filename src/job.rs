@@ -158,7 +158,7 @@ impl<'a> Job<'a> {
         Job { from: self.done(from), to: self.done(to), ..*self }
     }
 
-    /// How much of the whole job is done when `share` of this part is: no more than its end, whatever the rounding.
+    /// The share of the whole job that is done when `share` of this part is: no more than its end, whatever the rounding.
     fn done(&self, share: f64) -> f64 {
         (self.from + (self.to - self.from) * share).min(self.to)
     }
@@ -168,7 +168,7 @@ impl<'a> Job<'a> {
         self.context
     }
 
-    /// What the context keeps for all calls, made by `make` if it is not there yet. It must depend on nothing but its
+    /// A value that the context keeps for all calls, made by `make` if it is not there yet. It must depend on nothing but its
     /// type.
     pub(crate) fn kept<T: Any + Send + Sync>(&self, make: impl FnOnce() -> Result<T>) -> Result<Arc<T>> {
         self.context.kept.get(|| self.report(0.0), make)

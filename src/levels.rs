@@ -58,7 +58,7 @@ pub trait Levelled {
     /// The number of samples grows as the radius to the power of minus this.
     const DIMENSION: u32;
 
-    /// What is filled, and what its samples cover, for messages.
+    /// The name of the ground and of what its samples cover, for messages.
     const NAMES: [&'static str; 2];
 
     /// A radius within which any sample covers all of it.

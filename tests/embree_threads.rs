@@ -32,7 +32,7 @@ fn work() -> HashMap<String, u64> {
     work.filter(|(task, _)| *task != main || main == own).collect()
 }
 
-/// How many threads work on a call: for 2 ms at least.
+/// The number of threads that work on a call: for 2 ms at least.
 fn threads_of(call: impl FnOnce()) -> usize {
     let before = work();
     call();

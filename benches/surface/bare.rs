@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Packets per task: 4096 rays of 16.
 const PACKETS: usize = 256;
 
-/// Which lanes are traced: all. Embree faults on a mask that is not aligned.
+/// The lanes that are traced: all. Embree faults on a mask that is not aligned.
 #[repr(align(64))]
 struct Valid([i32; 16]);
 static ALL: Valid = Valid([-1; 16]);

@@ -292,7 +292,7 @@ impl Cloud {
     }
 }
 
-/// Where points go to.
+/// The destination of points.
 #[derive(Args)]
 pub struct Destination {
     /// The samples: a .ply, .npy, .csv or .xyz file, or .raw unless they lie on a mesh; or a scene, .usda or .glb.

@@ -40,7 +40,7 @@ struct Session {
     samples: Samples,
     given: BTreeMap<u64, ([f32; 2], f64)>,
     next_given: u64,
-    /// What was erased, to be put back.
+    /// The erased samples, to be put back.
     erased: Vec<Owned<azulejo_points>>,
 }
 

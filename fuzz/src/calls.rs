@@ -54,7 +54,7 @@ impl<T: Freed> Owned<T> {
         self.0
     }
 
-    /// What an accessor of the library tells of the handle.
+    /// A fact of the handle, from an accessor of the library.
     pub fn read<R>(&self, accessor: unsafe extern "C" fn(*const T) -> R) -> R {
         // SAFETY: the handle lives, and that is all that accessors ask for.
         unsafe { accessor(self.0) }
@@ -81,7 +81,7 @@ pub fn context() -> *const azulejo_context {
     CONTEXT.get_or_init(|| create(make).expect("a context of one thread")).get()
 }
 
-/// Where a call writes what it makes.
+/// The place to which a call writes its result.
 pub type Out<T> = *mut T;
 
 /// The handle that a call makes, unless it refuses.

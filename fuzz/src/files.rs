@@ -13,7 +13,7 @@ use crate::input::Input;
 use crate::surface;
 
 /// Loads a file of these bytes, once by its extension and once by what it begins with, and samples the mesh if it is one.
-/// How it is sampled follows from the bytes, too.
+/// The options of the sampler follow from the bytes, too.
 pub fn load_and_sample(extension: &str, bytes: &[u8]) {
     for path in [path(extension), path("")] {
         fs::write(path, bytes).expect("the file can be written");

@@ -85,7 +85,7 @@ pub fn check_report(options: &azulejo_dcr_options, points: &[[f32; 2]], report: 
     }
 }
 
-/// Which figure is not true, if one is not.
+/// The figure that is not true, if there is one.
 fn fault(options: &azulejo_dcr_options, points: &[[f32; 2]], report: &azulejo_dcr_report) -> Option<String> {
     let boundary = if options.boundary == 0 { Boundary::Periodic } else { Boundary::Bounded };
     let domain = Domain { min: options.domain_min, max: options.domain_max, boundary };

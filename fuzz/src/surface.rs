@@ -56,7 +56,7 @@ impl Corners {
         (side(0).powi(2) + side(1).powi(2) + side(2).powi(2)).sqrt()
     }
 
-    /// Where barycentrics of a triangle are.
+    /// The point of barycentrics of a triangle.
     pub fn place(&self, triangle: u32, barycentrics: [f32; 2]) -> [f32; 3] {
         let [a, b, c] = self.0[triangle as usize];
         let [u, v] = barycentrics.map(f64::from);

@@ -520,7 +520,7 @@ struct Gaps<'a> {
     survives: &'a [bool],
     /// The lattice with the radius that new samples keep.
     lattice: &'a Lattice,
-    /// Where gaps may be; everywhere if none.
+    /// The places of possible gaps; everywhere if none.
     seams: Option<&'a Seams>,
 }
 

@@ -17,7 +17,7 @@ const SLACK: i32 = 8;
 /// The blocks that may have gaps.
 pub struct Seams {
     counts: [i32; 2],
-    /// Whether a block may have gaps, row by row.
+    /// True for each block that may have gaps, row by row.
     open: Vec<bool>,
 }
 

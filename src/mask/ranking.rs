@@ -25,7 +25,7 @@ enum Stage {
 /// A channel, of which some ranks are known.
 pub struct Ranking<'a> {
     energy: Energy,
-    /// What decides between pixels of equal energy.
+    /// The key that decides between pixels of equal energy.
     ties: Vec<u32>,
     stage: Stage,
     ranks: &'a mut [u32],

@@ -155,7 +155,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// What has been read of a scene.
+/// The parts of a scene that have been read.
 #[derive(Default)]
 struct Scene {
     positions: Vec<[f64; 3]>,

@@ -16,7 +16,7 @@ const FIRST_PATCH: f32 = 1.0;
 /// [`top`] in diagonals of the mesh's box: slightly more than any distance on it.
 const TOP: f64 = 1.001;
 
-/// What is filled, and what its samples cover, for messages.
+/// The name of the ground and of what its samples cover, for messages.
 pub const NAMES: [&str; 2] = ["mesh", "surface"];
 
 /// A radius within which any sample covers the mesh.

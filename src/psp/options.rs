@@ -320,7 +320,7 @@ pub struct ClassOptions<'a> {
     pub order: Order,
     /// As in [`Options::quotient`].
     pub quotient: f64,
-    /// What the radii of the classes are multiples of, where that varies over the surface: by a density, for example.
+    /// The lengths of which the radii of the classes are multiples, if they vary over the surface: by a density, for example.
     /// Two samples keep the mean of their units. [`Scale::Count`](crate::psp::adaptive::Scale::Count) is about the
     /// number of samples that a class of radius 1 would have alone. Given samples then need clearances. `None`, the
     /// default: 1 everywhere.

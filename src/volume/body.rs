@@ -60,7 +60,7 @@ impl Body {
         Solid { interior: &self.interior, tolerance: self.tolerance }
     }
 
-    /// How deep places can be that a set with this covering radius leaves open.
+    /// The depth of places that a set with this covering radius may leave open.
     pub fn depth(&self, covering_radius: f64) -> f64 {
         let spacing = float_spacing(self.domain.min.iter().chain(&self.domain.max));
         3f64.sqrt() * (1.001 * self.tolerance * covering_radius + 4.0 * spacing)

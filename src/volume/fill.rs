@@ -40,7 +40,7 @@ impl Pass {
 
 /// One pass over a block. The result are the new samples in it.
 pub struct Fill<'a, S> {
-    /// What of the block is filled.
+    /// The part of the block that is filled.
     pub shape: S,
     /// Memory that is used again.
     pub grid: &'a mut Grid,

@@ -132,7 +132,7 @@ impl Grid {
         self.given = if given.is_empty() { Obstacles::default() } else { self.obstacles(given, margin) };
     }
 
-    /// How far from its voxel a dart can be that is rounded, in units.
+    /// The distance from its voxel at which a rounded dart can be, in units.
     pub fn margin(radius: f64) -> f64 {
         MARGIN + MARGIN_IN_RADII * radius
     }

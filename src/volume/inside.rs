@@ -1,4 +1,4 @@
-//! What of a block lies inside a mesh.
+//! The part of a block that lies inside a mesh.
 //!
 //! A voxel is *cut* if a triangle meets it, tested by separating axes (Schwarz and Seidel 2010, "Fast parallel surface and solid
 //! voxelization on GPUs", section 3, by intervals instead of edge functions). Where cut voxels are divided, box and plane of a triangle

@@ -32,8 +32,8 @@ pub struct InsideOptions<'a> {
     pub amount: Amount,
     /// By default [`Surface::Open`]. [`Surface::First`] needs a radius, and any order.
     pub surface: Surface,
-    /// How near to the surface places may stay open, in radii: 1/256 to 1/2, by default 1/16. A quarter of it takes about one and a
-    /// half times as long. See [`sample_inside`](super::sample_inside).
+    /// The side, in radii, of the voxels at the surface that may stay open: 1/256 to 1/2, by default 1/16. A quarter of it takes
+    /// about one and a half times as long. See [`sample_inside`](super::sample_inside).
     pub tolerance: f64,
     /// The same options and seed give the same samples.
     pub seed: u64,

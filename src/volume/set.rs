@@ -52,7 +52,7 @@ impl<'a> Set<'a> {
         Ok(set)
     }
 
-    /// What a fill adds to samples of a larger radius: a level, with ranks up to the largest one.
+    /// The samples that a fill adds to those of a larger radius: a level, with ranks up to the largest one.
     pub fn added(job: &Job, space: Space<'a>, options: LevelOptions, before: &[Sample]) -> Result<Vec<Sample>> {
         let LevelOptions { seed, throws_first, largest_rank } = options;
         let mut set = Self { largest_rank, ..Self::empty(space, seed, Level::widest()) };

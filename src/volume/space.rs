@@ -1,4 +1,4 @@
-//! What is filled: a cuboid with given balls, or the solid in it.
+//! The ground of a fill: a cuboid with given balls, or the solid in it.
 
 use crate::plane::{GivenDisks, Lattice};
 use crate::simd::{self, Level};
@@ -7,7 +7,7 @@ use crate::volume::inside::Solid;
 use crate::volume::search::Centre;
 use crate::volume::shape::Whole;
 
-/// What is filled.
+/// The ground of a fill.
 #[derive(Clone, Copy)]
 pub struct Space<'a> {
     /// The cuboid.

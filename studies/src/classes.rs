@@ -78,7 +78,7 @@ struct Results {
     ties: Vec<Tie>,
     relaxed: Vec<Relaxed>,
     plane: Vec<Times>,
-    /// Where a mesh was given.
+    /// The results on a mesh, if one was given.
     bunny: Option<Vec<Times>>,
     windows: Windows,
 }

@@ -88,7 +88,7 @@ const INTRODUCTION: &str = "Performance targets of 0.2, one thread if nothing el
     every round meets it, not met where none does, and otherwise not decided. Of memory and of several starts *measured* is the \
     worst, which decides. Nothing else should run on the machine.\n";
 
-/// Where the other goals are.
+/// The pages of the other goals.
 const ELSEWHERE: &str = "## Goals on other pages\n\n\
     * [kdrt.md](kdrt.md): KDRT's excess of density, and the time of its fill.\n\
     * [psp.md](psp.md): rates of projection, threads, bias of both ways to a maximal set.\n\

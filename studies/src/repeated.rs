@@ -84,7 +84,7 @@ impl Rounds {
     }
 }
 
-/// Which of some quantities is below all others, if the rounds tell.
+/// The one of some quantities that is below all others, if the rounds tell.
 pub fn lowest(all: &[&Repeated]) -> Option<usize> {
     let is_lowest = |&i: &usize| all.iter().enumerate().all(|(k, other)| k == i || all[i].is_below(other));
     (0..all.len()).find(is_lowest)

@@ -67,7 +67,7 @@ fn range(cell: &str) -> Option<[f64; 2]> {
     Some([low, high].map(|bound| numbers(bound)[0].value))
 }
 
-/// Which of the rows of a column is below all others, by ranges.
+/// The row of a column that is below all others, by ranges.
 fn lowest(table: &Table, column: usize) -> Option<Option<usize>> {
     let ranges = table.rows.iter().map(|row| match &*row[column] {
         "1" => Some([1.0; 2]),

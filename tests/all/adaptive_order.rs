@@ -275,7 +275,7 @@ fn given_samples_keep_their_clearances_in_every_prefix() {
     assert_eq!(refused.to_string(), "count: 900, but given samples cover all of the surface");
 }
 
-/// How many of the first samples of some sets are in each quarter of the ramp, over how many the density asks for.
+/// The number of the first samples of some sets in each quarter of the ramp, over the number that the density asks for.
 fn quarters(sets: &[Points<3>], count: usize) -> [f64; 4] {
     let mut shares = [0.0; 4];
     for position in sets.iter().flat_map(|set| &set.positions[..count]) {

@@ -264,7 +264,7 @@ fn triangles_of_space_are_measured_as_if_they_lay_in_the_plane() {
     assert!((one.edge_variation - other.edge_variation).abs() < 1e-12 && one.obtuse == 1.0);
 }
 
-/// What the tests of relaxation and analysis compare with: on a lattice of which the distances are known.
+/// The figures that the tests of relaxation and analysis compare with: of a lattice of which the distances are known.
 #[test]
 fn the_oracle_of_distances_notices_points_that_are_moved_and_domains_that_wrap() {
     let mut points: Vec<[f32; 2]> = (0..16).map(|i| [(i % 4) as f32 / 4.0, (i / 4) as f32 / 4.0]).collect();
@@ -278,7 +278,7 @@ fn the_oracle_of_distances_notices_points_that_are_moved_and_domains_that_wrap()
     assert_eq!(nearest_distances(&square, &points)[0], 0.25);
 }
 
-/// What several calls find is what each finds alone.
+/// Several calls find the same as each one alone.
 #[test]
 fn figures_are_those_of_the_calls_that_find_one() {
     let context = &Context::new(2).unwrap();

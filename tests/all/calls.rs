@@ -759,7 +759,7 @@ const ANALYSIS: &[Call] = &[
     },
 ];
 
-/// What a call told its callback, and on which threads.
+/// The reports of a call to its callback, and their threads.
 type Reports = Vec<(f64, ThreadId)>;
 
 /// A run that is watched to its end.

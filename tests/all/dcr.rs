@@ -302,7 +302,7 @@ fn few_coincident_and_collinear_points_are_spread() {
     }
 }
 
-/// How far a set is from lying on a line: the lesser of the two principal deviations over the greater.
+/// The distance of a set from lying on a line: the lesser of the two principal deviations over the greater.
 fn roundness(points: &[[f32; 2]]) -> f64 {
     let mean = |of: &dyn Fn(&[f32; 2]) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let centre = [0, 1].map(|axis| mean(&|p| f64::from(p[axis])));

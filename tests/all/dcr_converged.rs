@@ -1,4 +1,4 @@
-//! What "converged" promises of a set relaxed by momentum on Delaunay neighbours: no two points closer than 0.85 d_max and no
+//! The promises of "converged" for a set relaxed by momentum on Delaunay neighbours: no two points closer than 0.85 d_max and no
 //! circumradius above 0.67 d_max. Many small sets and some larger ones, since it is a promise for any.
 
 use azulejo::dcr::{Neighbourhood, Options, Report, Stopped, relax};
@@ -8,7 +8,7 @@ use crate::common::BOUNDARIES;
 use crate::common::relaxed;
 use crate::common::sets::{random_points, unit_square};
 
-/// Whether a set is all that is promised: its smallest distance by all pairs and its holes by cutting the domain are what its
+/// True for a set that is all that is promised: its smallest distance by all pairs and its holes by cutting the domain are what its
 /// report says, and if that says that it has converged, they are up to what the last step moves within the bounds.
 fn is_as_promised(count: usize, seed: u64, boundary: Boundary) -> (bool, Report) {
     let domain = unit_square(boundary);
@@ -22,7 +22,7 @@ fn is_as_promised(count: usize, seed: u64, boundary: Boundary) -> (bool, Report)
     (is_converged, report)
 }
 
-/// How many of the small sets of some seeds converge.
+/// The number of small sets of some seeds that converge.
 fn converged(seeds: std::ops::Range<u64>, boundary: Boundary) -> usize {
     seeds.filter(|&seed| is_as_promised(20 + (seed * 37 % 180) as usize, seed, boundary).0).count()
 }

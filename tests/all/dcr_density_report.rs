@@ -1,4 +1,4 @@
-//! What a report says of points that were relaxed to a density: held against its definitions, evaluated plainly.
+//! The report of points that were relaxed to a density: held against its definitions, evaluated plainly.
 
 use azulejo::dcr::{DelaunayOptions, Density, Report, relax, relax_with_density, scatter};
 use azulejo::{Boundary, Context, Domain};

@@ -1,4 +1,4 @@
-//! What the thesis's algorithm can be varied by: how tensions are divided, from where edges are visited, the step size,
+//! The variations of the thesis's algorithm: how tensions are divided, from where edges are visited, the step size,
 //! and what ends it.
 
 use azulejo::dcr::{
@@ -25,7 +25,7 @@ fn states(options: &Options, start: &[[f32; 2]]) -> (Vec<Vec<[f32; 2]>>, Report)
     (states, report)
 }
 
-/// How far each point got, on the torus or in the square.
+/// The way that each point made, on the torus or in the square.
 fn displacements(domain: &Domain, from: &[[f32; 2]], to: &[[f32; 2]]) -> Vec<[f64; 2]> {
     let displacement = |(from, to): (&[f32; 2], &[f32; 2])| domain.offset(from.map(f64::from), to.map(f64::from));
     from.iter().zip(to).map(displacement).collect()

@@ -25,7 +25,7 @@ fn set(mesh: &Arc<Mesh>, options: &ProjectionOptions) -> EditableSet {
     psp.into_editable()
 }
 
-/// What is wrong with a set that should be maximal around given balls.
+/// The fault in a set that should be maximal around given balls, if there is one.
 fn fault(mesh: &Mesh, samples: &Points<3>, radius: f64, cosine: f64, balls: &[Ball]) -> Option<String> {
     let radii = vec![radius; samples.len()];
     let conflict = oracle::conflict(samples, &radii, cosine).map(|pair| format!("conflict of {pair:?}"));
@@ -147,6 +147,8 @@ fn every_refill_makes_the_set_maximal_and_leaves_the_rest_alone() {
     session(&mesh(meshes::random_soup(5, 60)), &ProjectionOptions::new(0.05), 5, 8);
     session(&mesh(meshes::sheets(0.01)), &ProjectionOptions::new(0.05).cosine(0.0), 6, 8);
     session(&mesh(meshes::placed(meshes::torus(), 1e-3, 7.0)), &ProjectionOptions::new(2e-4), 7, 6);
+    // Triangles far smaller than the radius, of which a stroke touches few: its samples covered others beside it.
+    session(&mesh(meshes::fine_torus(120, 60)), &ProjectionOptions::new(0.2), 9, 10);
 }
 
 #[test]

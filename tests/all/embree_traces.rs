@@ -48,12 +48,12 @@ fn meeting(mesh: &Mesh, ray: &Ray, triangle: u32) -> Option<Meeting> {
     Meeting::of(ray, mesh.corners(triangle))
 }
 
-/// Whether the oracle allows a hit.
+/// True for a hit that the oracle allows.
 fn right(mesh: &Mesh, ray: &Ray, hit: &Hit) -> bool {
     meeting(mesh, ray, hit.triangle).is_some_and(|meeting| meeting.possible() && meeting.is(hit))
 }
 
-/// Whether the oracle demands it.
+/// True for a hit that the oracle demands.
 fn certain(mesh: &Mesh, ray: &Ray, hit: &Hit) -> bool {
     meeting(mesh, ray, hit.triangle).is_some_and(|meeting| meeting.certain())
 }
@@ -117,7 +117,7 @@ fn record() {
     }
 }
 
-/// Whether a replayed hit is the recorded one: both differ from the truth by rounding.
+/// True if a replayed hit is the recorded one: both differ from the truth by rounding.
 fn same(meeting: &Meeting, a: &Hit, b: &Hit) -> bool {
     ((a.t - b.t) as f64).abs() <= 2.0 * meeting.t_error
         && (0..2).all(|i| ((a.uv[i] - b.uv[i]) as f64).abs() <= 2.0 * meeting.uv_error)
@@ -204,7 +204,7 @@ fn a_closed_surface_has_no_cracks() {
     }
 }
 
-/// What the other rays of its packet are can decide only whether a ray meets an edge, never where it meets a triangle.
+/// The other rays of its packet can decide only whether a ray meets an edge, never where it meets a triangle.
 #[test]
 fn rays_may_be_cut_into_any_chunks() {
     let mesh = meshes::soup(500, 0.3, 7);

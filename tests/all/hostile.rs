@@ -1,4 +1,4 @@
-//! What fuzzing found (scripts/fuzz.sh): input that took memory or time without end, each as small as can be.
+//! Findings of fuzzing (scripts/fuzz.sh): input that took memory or time without end, each as small as can be.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -60,7 +60,7 @@ fn a_domain_that_is_a_line_for_all_floats_is_refused() {
     assert!(triangle_statistics(&context, &domain, &[[0.0, 0.5]], None).is_ok());
 }
 
-/// What a function that is not what its caller says of it brings about, on one thread and on three.
+/// Results of functions that are not what their callers say of them, on one thread and on three.
 fn refused(mesh: &Mesh, radius: Radius) -> String {
     let sample = |threads| adaptive::sample(&Context::new(threads).unwrap(), mesh, &Options::new(radius), None);
     let [said, again] = [1, 3].map(|threads| sample(threads).unwrap_err().to_string());

@@ -117,7 +117,7 @@ fn of_class(set: &Points<2>, class: u32) -> Vec<[f32; 2]> {
     samples.map(|(sample, _)| *sample).collect()
 }
 
-/// Where the first class is tiled.
+/// The domains in which the first class is tiled.
 #[test]
 fn a_lone_class_of_the_largest_radius_is_the_set_of_kdrt() {
     for (seed, boundary) in BOUNDARIES.into_iter().enumerate() {
@@ -173,7 +173,7 @@ fn windows_and_threads_make_the_same_set() {
     }
 }
 
-/// What is wrong with the ranks of a set in progressive order, if anything is: they fall in each class, and all samples
+/// The fault in the ranks of a set in progressive order, if there is one: they fall in each class, and all samples
 /// of a group up to a rank keep the promises of that rank.
 fn fault_of_ranks(domain: &Domain, classes: &Classes, given: &Set, set: &Points<2>, quotient: f64) -> Option<String> {
     let all: Vec<_> =

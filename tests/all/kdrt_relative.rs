@@ -33,7 +33,7 @@ fn all_of(points: &Points<2>) -> Vec<Sample> {
     sorted(&points.positions, &points.ranks, &points.classes)
 }
 
-/// What a window owes: every image of every sample that lies in it, seen from its corner. All sums are exact.
+/// The promise of a window: every image of every sample that lies in it, seen from its corner. All sums are exact.
 fn images(whole: &Points<2>, domain: &Domain, (min, max): Rect) -> Vec<Sample> {
     let (mut positions, mut ranks, mut classes) = (Vec::new(), Vec::new(), Vec::new());
     let turns = |axis: usize| {

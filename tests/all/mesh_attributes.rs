@@ -1,4 +1,4 @@
-//! What a mesh can carry besides its triangles: normals and a mask.
+//! The attributes of a mesh: normals and a mask.
 
 use std::sync::Arc;
 
@@ -139,7 +139,7 @@ fn all_ways(mesh: &Mesh, radius: f64) -> [(Points<3>, Report); 3] {
     })
 }
 
-/// What does not differ from call to call.
+/// The figures that do not differ from call to call.
 fn timeless(mut report: Report) -> Report {
     for seconds in [
         &mut report.seconds,

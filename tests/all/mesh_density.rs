@@ -39,7 +39,7 @@ fn at_vertices(mesh: &Mesh, density: impl Fn([f64; 3]) -> f64) -> Vec<f32> {
     mesh.positions().iter().map(|position| density(position.map(f64::from)) as f32).collect()
 }
 
-/// How many samples of some sets are in bands along x, over how many the density asks for; a margin above and below is
+/// The number of samples of some sets in bands along x, over the number that the density asks for; a margin above and below is
 /// left out, where samples stand closer.
 fn bands(sets: &[Points<3>], count: usize, margin: f64, density: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut counts = vec![0.0; count];

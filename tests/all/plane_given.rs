@@ -15,7 +15,7 @@ use crate::common::{BOUNDARIES, domain, find_conflict, float_spacing, hard_domai
 /// Positions with their clearances.
 pub type Set = (Vec<[f32; 2]>, Vec<f64>);
 
-/// What is wrong with a set around given samples, if anything is.
+/// The fault in a set around given samples, if there is one.
 pub fn fault(domain: &Domain, radius: f64, given: &Set, samples: &[[f32; 2]]) -> Option<String> {
     if let Some(pair) = find_conflict(domain, radius, samples) {
         return Some(format!("{pair:?} are closer than the radius {radius}"));

@@ -29,7 +29,7 @@ fn tolerance(domain: &Domain) -> f64 {
     6.0 * float_spacing(domain)
 }
 
-/// What is wrong with a prefix, if anything is.
+/// The fault in a prefix, if there is one.
 fn fault(domain: &Domain, quotient: f64, set: &Points<2>, count: usize) -> Option<String> {
     fault_of(domain, quotient, &set.positions[..count], set.ranks[count - 1])
 }
@@ -172,7 +172,7 @@ fn a_set_is_a_prefix_of_those_with_half_the_radius() {
     }
 }
 
-/// What a window of a set owes.
+/// The promise of a window of a set.
 fn part_of(set: &Points<2>, (min, max): Rect) -> (Vec<[f32; 2]>, Vec<f32>) {
     let inside = |sample: &[f32; 2]| {
         (0..2).all(|axis| min[axis] <= f64::from(sample[axis]) && f64::from(sample[axis]) < max[axis])

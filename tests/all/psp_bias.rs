@@ -1,4 +1,4 @@
-//! How even the sets of PSP are, however a surface is turned towards the projectors, and however it is cut into triangles.
+//! The evenness of the sets of PSP, however a surface is turned towards the projectors, and however it is cut into triangles.
 
 use std::sync::Arc;
 
@@ -101,7 +101,7 @@ fn the_oracle_puts_areas_and_samples_where_they_face() {
     check(&[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], &both);
 }
 
-/// What one iteration finds depends on the angle; what is filled makes up for all of it but a few percent.
+/// The samples of one iteration depend on the angle; the fill makes up for all of it but a few percent.
 #[test]
 fn filling_evens_out_what_the_projectors_miss() {
     for (priority, left) in [(Priority::Squareness, 0.045), (Priority::Projector, 0.03)] {

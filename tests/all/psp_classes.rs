@@ -20,7 +20,7 @@ fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Copy)]
 struct Case<'a> {
     mesh: &'a Arc<Mesh>,

@@ -22,7 +22,7 @@ fn of_vertices(mesh: &Mesh, at: impl Fn([f64; 3]) -> f64) -> Vec<f32> {
     mesh.positions().iter().map(|position| at(position.map(f64::from)) as f32).collect()
 }
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Copy)]
 struct Case<'a> {
     mesh: &'a Arc<Mesh>,

@@ -38,7 +38,7 @@ fn checked(mesh: &Mesh, samples: &Points<3>) -> (Mesh, RemeshReport) {
     (made, report)
 }
 
-/// What is wrong with triangles of so many samples, or with what is said of them, if anything is.
+/// The fault in triangles of so many samples, or in what is said of them, if there is one.
 fn fault(samples: usize, triangles: &[[u32; 3]], report: &RemeshReport) -> Option<String> {
     let quality = report.quality;
     let mut edges: BTreeMap<BTreeSet<u32>, Vec<bool>> = BTreeMap::new();
@@ -209,7 +209,7 @@ fn triangles_face_as_the_mesh_does() {
     }
 }
 
-/// What is not a surface, or too thin for the samples, still gives edges of at most two triangles.
+/// Meshes that are no surface, or too thin for the samples, still give edges of at most two triangles.
 #[test]
 fn broken_meshes_give_what_can_be_had() {
     let (sheets, one) = (mesh(meshes::sheets(0.001)), darts(&mesh(meshes::plane()), 300.0, 1));

@@ -49,7 +49,7 @@ fn gap(mesh: &Mesh, samples: &Points<3>) -> Option<[f64; 3]> {
     oracle::gap(mesh, samples, RADIUS, psp::TOLERANCE * spacing)
 }
 
-/// How many standard errors the mean count of sets is off that of cars of length 1 parked at random on a street. Cars
+/// The standard errors by which the mean count of sets is off that of cars of length 1 parked at random on a street. Cars
 /// reach half a radius beyond the ends of the strip.
 fn deviation(counts: &[usize]) -> f64 {
     let street = f64::from(LENGTH) / RADIUS + 1.0;

@@ -145,7 +145,7 @@ fn check<const D: usize>(count: usize, seed: u64) {
     }
 }
 
-/// How many points of the order are at least `radius` apart, at most `count`.
+/// The number of points of the order that are at least `radius` apart, at most `count`.
 fn reaching(order: &[(u32, f64)], radius: f64, count: usize) -> usize {
     order.iter().take_while(|&&(_, distance)| distance >= radius).count().min(count)
 }

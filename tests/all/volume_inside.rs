@@ -46,9 +46,50 @@ fn distance_from_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> f64 {
     edges
 }
 
-fn depth(mesh: &Mesh, point: [f64; 3]) -> f64 {
+fn corners(mesh: &Mesh) -> Vec<[[f64; 3]; 3]> {
     let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.positions()[vertex as usize].map(f64::from));
-    mesh.triangles().iter().map(|t| distance_from_triangle(point, corners(t))).fold(f64::INFINITY, f64::min)
+    mesh.triangles().iter().map(corners).collect()
+}
+
+fn depth(triangles: &[[[f64; 3]; 3]], point: [f64; 3]) -> f64 {
+    triangles.iter().map(|&triangle| distance_from_triangle(point, triangle)).fold(f64::INFINITY, f64::min)
+}
+
+/// A place inside that is deeper than `depth` and lies in no ball, by halving boxes until each lies in a ball, near to the
+/// surface, outside, or is smaller than `finest`. Triangles are those that may be the nearest one of a point of the box.
+fn gap(
+    mesh: &Mesh,
+    triangles: &[[[f64; 3]; 3]],
+    balls: &[([f64; 3], f64)],
+    [min, max]: [[f64; 3]; 2],
+    [depth, finest]: [f64; 2],
+) -> Option<[f64; 3]> {
+    let length = |vector: [f64; 3]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let centre = [0, 1, 2].map(|k: usize| 0.5 * (min[k] + max[k]));
+    let half = length([0, 1, 2].map(|k: usize| 0.5 * (max[k] - min[k])));
+    let from_centre = |place: [f64; 3]| length([0, 1, 2].map(|k: usize| place[k] - centre[k]));
+    if balls.iter().any(|&(ball, radius)| from_centre(ball) + half <= radius) {
+        return None;
+    }
+    let distances: Vec<f64> = triangles.iter().map(|&t| distance_from_triangle(centre, t)).collect();
+    let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    // A box beside the surface lies on one side of it, as far as its centre's float does.
+    let is_inside = || mesh.contains(centre.map(|x| x as f32));
+    if nearest + half <= depth || half < finest || nearest > half + 1e-6 && !is_inside() {
+        return None;
+    }
+    if nearest > depth + 1e-6 && balls.iter().all(|&(ball, radius)| from_centre(ball) > radius) && is_inside() {
+        return Some(centre);
+    }
+    let near = |&(ball, radius): &([f64; 3], f64)| from_centre(ball) <= radius + half;
+    let balls: Vec<_> = balls.iter().copied().filter(near).collect();
+    let may_be_nearest = distances.iter().map(|&distance| distance <= nearest + 2.0 * half);
+    let triangles: Vec<_> = triangles.iter().zip(may_be_nearest).filter(|pair| pair.1).map(|pair| *pair.0).collect();
+    let axis = (0..3).max_by(|&a, &b| (max[a] - min[a]).total_cmp(&(max[b] - min[b]))).unwrap();
+    let (mut lower, mut upper) = (max, min);
+    (lower[axis], upper[axis]) = (centre[axis], centre[axis]);
+    gap(mesh, &triangles, &balls, [min, lower], [depth, finest])
+        .or_else(|| gap(mesh, &triangles, &balls, [upper, max], [depth, finest]))
 }
 
 /// True if most rays in random directions cross an odd number of triangles, by sums of floats.
@@ -71,6 +112,16 @@ fn votes_inside(mesh: &Mesh, point: [f32; 3], random: &mut Random) -> bool {
     odd.count() >= 3
 }
 
+/// The balls that cover what a report says, of samples and given ones, and the place that is open in spite of them.
+fn open_place(mesh: &Mesh, samples: &[[f32; 3]], report: &InsideReport, given: &[([f32; 3], f64)]) -> Option<[f64; 3]> {
+    let limit = report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0;
+    let of_given = given.iter().map(|&(centre, clearance)| (centre, clearance + 1e-6));
+    let balls = samples.iter().map(|&sample| (sample, limit)).chain(of_given);
+    let balls: Vec<_> = balls.map(|(centre, radius)| (centre.map(f64::from), radius)).collect();
+    let Domain { min, max, .. } = space(mesh);
+    gap(mesh, &corners(mesh), &balls, [min, max], [report.depth, 1e-3 * report.radius])
+}
+
 /// Checks a set, and gives the number of random points inside that are covered.
 fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32; 3], f64)]) -> usize {
     let (domain, new) = (space(mesh), &points.positions[report.surface_samples..]);
@@ -82,7 +133,8 @@ fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32;
     for &sample in new.iter().step_by(1 + new.len() / 100) {
         assert!(votes_inside(mesh, sample, &mut random), "{sample:?}");
     }
-    let limit = report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0;
+    assert_eq!(open_place(mesh, &points.positions, report, given), None, "open, deeper than {}", report.depth);
+    let (limit, triangles) = (report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0, corners(mesh));
     for _ in 0..6_000 {
         let place = [0, 1, 2].map(|k: usize| (domain.min[k] + domain.extent()[k] * f64::from(random.unit())) as f32);
         if !mesh.contains(place) {
@@ -93,7 +145,7 @@ fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32;
         if near(&points.positions) || balls.iter().any(|&(c, r)| distance(&domain, c, place) < r + 1e-6) {
             covered += 1;
         } else {
-            let depth = depth(mesh, place);
+            let depth = depth(&triangles, place);
             assert!(depth <= report.depth, "{place:?} is open, {depth} deep of {}", report.depth);
         }
     }
@@ -293,5 +345,6 @@ fn the_oracle_can_fail() {
     let inner = |p: &[f32; 3]| p.iter().all(|x| (0.3..0.7).contains(x));
     let missing = points.positions.iter().position(inner).unwrap();
     points.positions.remove(missing);
+    assert!(open_place(&mesh, &points.positions, &report, &[]).is_some());
     assert!(std::panic::catch_unwind(|| check(&mesh, &points, &report, &[])).is_err());
 }

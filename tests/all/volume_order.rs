@@ -25,7 +25,7 @@ fn prefixes(count: usize, seed: u64) -> Vec<usize> {
     (1..8).chain([98, 100, 104, 120]).chain(some).chain([count]).filter(|&prefix| prefix <= count).collect()
 }
 
-/// What is wrong with the order of samples around given ones, if anything is: with the ranks, the distances of each sample
+/// The fault in the order of samples around given ones, if there is one: in the ranks, the distances of each sample
 /// from those before it, or the covering radius of some prefixes.
 fn disorder(
     domain: &Domain<3>,

@@ -17,7 +17,7 @@ namespace {
 const std::array<std::array<float, 3>, 4> positions = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 const std::array<std::array<std::uint32_t, 3>, 4> indices = {{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 
-/// Whether a call throws this.
+/// True for a call that throws this.
 template <class Thrown, class Call>
 bool leaves(const Thrown &expected, Call call) {
     try {

@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Whether a call was refused with this in its message.
+/// True for a call that was refused with this in its message.
 bool refused(const char *part, const azulejo::Status &status) {
     return status.code() == AZULEJO_ERROR_INVALID_ARGUMENT && status.message().find(part) != std::string::npos;
 }

@@ -50,12 +50,12 @@ if [ -n "${EMBREE_DIR:-}" ]; then
     link=(-L "$EMBREE_DIR/lib" -L "$EMBREE_DIR/lib64" "-Wl,-rpath,$EMBREE_DIR/lib" "${link[@]}")
 fi
 
-# Says how a step went, with its output where that matters: step NAME COMMAND...
+# Says how a step went, and in how many seconds, with its output where that matters: step NAME COMMAND...
 step() {
-    local name=$1 log=$work/log
+    local name=$1 log=$work/log began=$SECONDS
     shift
     if "$@" >"$log" 2>&1; then
-        printf '%-34s %s\n' "$name" "$(tail -n 1 "$log" | grep -E '[0-9]+ passed' || echo ok)"
+        printf '%-34s %3d s  %s\n' "$name" $((SECONDS - began)) "$(tail -n 1 "$log" | grep -E '[0-9]+ passed' || echo ok)"
     else
         printf '%-34s FAILED\n' "$name"
         sed 's/^/    /' "$log"

@@ -5,7 +5,7 @@
 
 #include <azulejo.hpp>
 
-/// Whether a call throws an Error of this status, with this in its message.
+/// True for a call that throws an Error of this status, with this in its message.
 template <class Call>
 bool throws(azulejo_status status, const char *part, Call call) {
     try {
@@ -16,7 +16,7 @@ bool throws(azulejo_status status, const char *part, Call call) {
     }
 }
 
-/// Whether an argument of a call is refused with this in the message.
+/// True if an argument of a call is refused with this in the message.
 template <class Call>
 bool refused(const char *part, Call call) {
     return throws(AZULEJO_ERROR_INVALID_ARGUMENT, part, call);

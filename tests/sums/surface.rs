@@ -11,7 +11,7 @@ use azulejo::{Classes, Context, Given, Order, Points, Result};
 use super::list::{List, little_endian};
 use super::meshes;
 
-/// What is measured: a closed torus with a maximal set, and an open one with a set of few samples.
+/// The sets that are measured: a closed torus with a maximal set, and an open one with a set of few samples.
 pub struct Surface {
     pub closed: Arc<Mesh>,
     pub maximal: Points<3>,

@@ -44,7 +44,7 @@ impl Set {
     }
 }
 
-/// What is known of samples of an edited set.
+/// The arrays of samples of an edited set.
 fn edited<const AXES: usize>(samples: Points<AXES>) -> Answer {
     let Points { positions, normals, triangles, barycentrics, ids, interpolated_normals, .. } = samples;
     // Whole numbers up to 2^53, more than any set gets to.
@@ -276,7 +276,7 @@ pub extern "C" fn azulejo_set_refill(set: &mut Set, seed: u64) -> i32 {
     call(|context, progress| edit!(set, set => Ok(set.refill(context, seed, progress)?.answer())))
 }
 
-/// What a refill returns.
+/// The result of a refill.
 trait Refilled {
     fn answer(self) -> Answer;
     fn count(&self) -> usize;

@@ -139,7 +139,7 @@ fn normals(mesh: &Mesh) -> Vec<[f32; 3]> {
     if mesh.has_normals() { mesh.normals().to_vec() } else { Vec::new() }
 }
 
-/// Whether a mesh has an inside that is decided without error.
+/// True for a mesh with an inside that is decided without error.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_mesh_is_closed(mesh: &Handle) -> i32 {
     call(|_, _| Ok(Answer::default().and(vec![u8::from(mesh.0.is_closed())])))

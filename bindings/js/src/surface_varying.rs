@@ -16,7 +16,7 @@ pub struct VaryingOptions {
     progressive: f64,
     quotient: f64,
     cosine: f64,
-    /// What the numbers of the mesh are: 0 none, 1 radii of the vertices, 2 a density.
+    /// The kind of the numbers of the mesh: 0 none, 1 radii of the vertices, 2 a density.
     kind: f64,
     /// Of a density, the radius where it is 1, or the number of samples if that is above 0.
     radius: f64,

@@ -1,4 +1,4 @@
-//! What the module asks JavaScript during a call: the callbacks of `index.js`, which catch what those of the caller throw.
+//! The calls from the module to JavaScript: the callbacks of `index.js`, which catch what those of the caller throw.
 
 use std::ops::ControlFlow;
 

@@ -143,7 +143,7 @@ pub(crate) fn one_of(radius: f64, count: i128, sides: impl IntoIterator<Item = f
     Ok(())
 }
 
-/// What a radius and a count ask for, one of which is 0.
+/// The amount that a radius and a count ask for, one of which is 0.
 pub(crate) fn amount_of(radius: f64, count: i128) -> PyResult<Amount> {
     match natural("count", count)? {
         0 => Ok(Amount::Radius(radius)),

@@ -116,7 +116,7 @@ impl<'py, T: Entry> Array<'py, T> {
     }
 }
 
-/// What numpy makes of an object.
+/// The array that numpy makes of an object.
 pub(crate) fn as_array<'py>(argument: &str, object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let py = object.py();
     if object.is_none() {
@@ -132,7 +132,7 @@ pub(crate) fn as_array<'py>(argument: &str, object: &Bound<'py, PyAny>) -> PyRes
     made("from_dlpack", object)
 }
 
-/// What `__array__` of an object returns that stands for an array.
+/// The result of `__array__` of an object that stands for an array.
 pub(crate) fn standing_for<'py>(
     array: &Bound<'py, PyAny>,
     dtype: Option<Bound<'py, PyAny>>,

@@ -9,7 +9,7 @@ use crate::array::{Array, Entry, line, line_if_any, standing_for, table};
 use crate::error::invalid;
 use crate::frame::{Frame, Rows, in_frame};
 
-/// What samples lie in or on.
+/// The ground on which samples lie.
 #[derive(Clone, Copy)]
 pub(crate) enum Place {
     Plane(Frame),
@@ -48,7 +48,7 @@ pub(crate) struct Points {
     /// The positions relative to origin, float32, shape (n, 2) or (n, 3): what radii and gaps hold for to the last bit.
     #[pyo3(get)]
     pub(crate) local_positions: Py<PyAny>,
-    /// What local_positions are relative to, float64, shape (2,) or (3,): 0 unless the domain or mesh lies so far from
+    /// The origin of local_positions, float64, shape (2,) or (3,): 0 unless the domain or mesh lies so far from
     /// there that float32 would be too coarse.
     #[pyo3(get)]
     origin: Py<PyArray1<f64>>,
@@ -66,7 +66,7 @@ pub(crate) struct Points {
     /// On meshes: u, v of each sample, float32, shape (n, 2): it lies at (1 - u - v) a + u b + v c.
     #[pyo3(get)]
     barycentrics: Option<Py<PyArray2<f32>>>,
-    /// Where radii vary: the radius of each sample, float64, shape (n,), in the units of the mesh.
+    /// The radius of each sample if radii vary, float64, shape (n,), in the units of the mesh.
     #[pyo3(get)]
     radii: Option<Py<PyArray1<f64>>>,
     /// In progressive order: the rank of each sample, a distance, float32, shape (n,). The samples up to one are at least
@@ -335,7 +335,7 @@ impl Points {
         Ok((py.import("azulejo")?.getattr("_points")?, (known,)))
     }
 
-    /// How many samples, where they lie, and what is known of them.
+    /// The number of samples, their ground, and the names of their arrays.
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let place = match self.place {
             Place::Plane(frame) => format!("in {}", frame.shown()),

@@ -46,7 +46,7 @@ report! {
 }
 
 impl DcrReport {
-    /// What all relaxations report.
+    /// The report of all relaxations.
     fn steps(iterations: u32, stopped: Stopped, motion: f64, smallest_distance: f64, rho: f64) -> Self {
         let stopped = match stopped {
             Stopped::Converged => "converged",

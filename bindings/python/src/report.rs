@@ -32,7 +32,7 @@ macro_rules! report {
 }
 pub(crate) use report;
 
-/// What an object is made of again: a callable and its arguments, a class with those of its constructor.
+/// The parts of which an object is made again: a callable and its arguments, a class with those of its constructor.
 pub(crate) type Reduced<'py> = (Bound<'py, PyAny>, (Bound<'py, PyType>, (), Bound<'py, PyDict>));
 
 /// The fields of a report by name, in an expression that makes it.

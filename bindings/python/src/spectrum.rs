@@ -40,7 +40,7 @@ report! {
         contrast: f64,
         /// The highest power in the range over the mean of its annulus; 0 for none.
         peak: f64,
-        /// Where that is, in units of sqrt(count / area).
+        /// Its frequency, in units of sqrt(count / area).
         peak_frequency: [f64; 2],
     }
 }

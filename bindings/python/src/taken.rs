@@ -11,7 +11,7 @@ use crate::frame::Positions;
 use crate::mesh::Mesh;
 use crate::watch::unlocked;
 
-/// Where packages keep vertices and faces, by the attributes of their meshes: trimesh and libigl's wrappers, Open3D,
+/// The places where packages keep vertices and faces, by the attributes of their meshes: trimesh and libigl's wrappers, Open3D,
 /// PyVista.
 const PLACES: [(&str, &str); 3] = [("vertices", "faces"), ("vertices", "triangles"), ("points", "faces")];
 

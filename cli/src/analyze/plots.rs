@@ -49,7 +49,7 @@ const WIDE_PAGE: [f32; 2] = [900.0, 470.0];
 const LOWER: Rect = Rect { y: 540.0, ..WIDE };
 const DOUBLE_PAGE: [f32; 2] = [900.0, 940.0];
 
-/// Where the pictures go to.
+/// The destination of the pictures.
 #[derive(Args)]
 pub struct PlotArgs {
     /// Draw the samples, their spectrum and their distances as PNG pictures into a directory.

@@ -8,7 +8,7 @@ use super::surface::SurfaceTable;
 /// Samples in space with all that is known of them. Lists of what is not known are empty.
 pub struct Scene<'a> {
     pub positions: Vec<[f32; 3]>,
-    /// What positions are relative to.
+    /// The origin to which positions are relative.
     pub origin: [f64; 3],
     /// The normals of the surface that the samples lie on.
     pub normals: &'a [[f32; 3]],

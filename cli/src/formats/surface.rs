@@ -15,7 +15,7 @@ pub struct SurfaceTable<'a> {
     pub radii: Option<&'a [f64]>,
     /// The radius of each class, or of all samples, where `radii` has none; empty if it is not known.
     pub class_radii: &'a [f64],
-    /// What positions are relative to: the origin of the mesh. If it is not 0, positions are written as doubles.
+    /// The origin of the mesh, to which positions are relative. If it is not 0, positions are written as doubles.
     pub origin: [f64; 3],
 }
 

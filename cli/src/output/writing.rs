@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::Output;
 
-/// Whether files that exist are replaced.
+/// The rule for files that exist.
 #[derive(Args, Clone, Copy)]
 pub struct Replacing {
     /// Replace files that exist. Without, they are left as they are and the command is refused.
@@ -27,7 +27,7 @@ impl Replacing {
     }
 }
 
-/// How files are written, and reported.
+/// The way in which files are written and reported.
 #[derive(Args, Clone, Copy)]
 pub struct Writing {
     #[command(flatten)]

@@ -16,7 +16,7 @@ pub(crate) fn call(body: impl FnOnce() -> Result<(), Failure>) -> azulejo_status
     }
 }
 
-/// Where the caller wants a result. It is written once, when the call has succeeded.
+/// The place of a result, named by the caller. It is written once, when the call has succeeded.
 pub(crate) struct Out<T>(*mut T);
 
 impl<T> Out<T> {

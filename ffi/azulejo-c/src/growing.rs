@@ -22,7 +22,7 @@ pub(crate) unsafe trait Growing: Copy {
     const NAME: &str;
     /// The struct that the init function writes.
     const DEFAULT: Self;
-    /// Where each field ends, in order.
+    /// The end of each field, in order.
     const FIELD_ENDS: &[usize];
     /// The least `struct_size` that is accepted.
     const REQUIRED_END: usize;

@@ -67,7 +67,7 @@ impl<T: Freed> Owned<T> {
         self.0
     }
 
-    /// What an accessor of the library tells of the handle.
+    /// A fact of the handle, from an accessor of the library.
     fn read<R>(&self, accessor: unsafe extern "C" fn(*const T) -> R) -> R {
         // SAFETY: the handle lives, and that is all that accessors ask for.
         unsafe { accessor(self.0) }

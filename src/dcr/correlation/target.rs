@@ -107,7 +107,7 @@ impl PairCorrelation {
         Self::of_power(highest, &(0..bins as usize).map(power).collect::<Vec<_>>(), REACH, BINS)
     }
 
-    /// Where the last bin ends, in units of `d_max`.
+    /// The end of the last bin, in units of `d_max`.
     pub fn reach(&self) -> f64 {
         self.reach
     }

@@ -25,7 +25,7 @@ const MOST_COVERED: f64 = 0.4;
 /// The most clusters of triangles by which a mesh is judged.
 const PROBES: usize = 1 << 10;
 
-/// How much a surface bends: about the angle, in radians per unit of length, by which its normals turn.
+/// The bending of a surface: about the angle, in radians per unit of length, by which its normals turn.
 struct Bending(f64);
 
 impl Bending {

@@ -28,7 +28,7 @@ const BALLS: [Ball; 4] = [
     Ball { centre: [1.5, 0.34], radius: 0.2, colour: [0.1, 0.2, 0.7] },
 ];
 
-/// Where the light comes from.
+/// The direction of the light.
 const LIGHT: [f64; 3] = [-0.48, -0.64, 0.6];
 
 /// Balls in the light, on paper that is darker at the bottom.

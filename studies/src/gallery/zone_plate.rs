@@ -72,9 +72,9 @@ fn near(x: f64, side: usize) -> std::ops::Range<usize> {
 /// amplitude.
 #[derive(Clone, Copy)]
 pub struct Errors {
-    /// Where the plate has frequencies that a picture can show, along both axes together.
+    /// The part of the plate with frequencies that a picture can show, along both axes together.
     pub low: f64,
-    /// Where it has others: what is not grey there is aliasing.
+    /// The part with others: what is not grey there is aliasing.
     pub high: f64,
 }
 

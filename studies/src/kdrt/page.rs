@@ -28,7 +28,7 @@ const PEAKS: [(&str, Figure); 3] = [
     ("mean power over annuli", |peak| &peak.level),
 ];
 
-/// Where [`Statistics::peaks`] are.
+/// The frequencies of [`Statistics::peaks`].
 const PLACES: [&str; 3] = ["axes", "fill blocks", "cells"];
 
 /// The largest difference of the density at the default leaf size from that of an unbiased set, in percent: the goals

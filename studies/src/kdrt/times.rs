@@ -22,7 +22,7 @@ pub struct Times {
     pub leaves: Vec<LeafTimes>,
     /// The unbiased reference at [`Effort::timed`].
     pub reference: Rounds,
-    /// Which of the numbers of samples is that one.
+    /// The index of that number of samples.
     pub timed: usize,
     pub threads: usize,
 }

@@ -1,4 +1,4 @@
-//! What the pixels see: functions whose mean over each pixel is known.
+//! The integrands of pixels: functions whose mean over each pixel is known.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

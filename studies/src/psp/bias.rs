@@ -131,7 +131,7 @@ impl Measure<'_> {
     }
 }
 
-/// Where the projectors of a seed's first iteration look, on whatever mesh.
+/// The directions of the projectors of a seed's first iteration, on any mesh.
 fn directions(context: &Context, mesh: &Arc<Mesh>, seed: u64) -> Result<[[f64; 3]; 3]> {
     let mut psp = Psp::new(mesh, &ProjectionOptions::new(1.0).projectors(Projectors::Global).seed(seed))?;
     psp.advance(context, 1, None)?;

@@ -10,7 +10,7 @@ pub const LIMIT: f64 = 2.05;
 pub const ANNULUS: f64 = 0.01;
 pub const CURVE_ANNULUS: f64 = 0.02;
 
-/// Where contrast is measured.
+/// The frequency at which contrast is measured.
 pub const RANGE: std::ops::Range<f64> = 0.5..2.0;
 
 /// The spectrum of a set of about `count` samples up to `limit`, in units of sqrt(density).

@@ -1,4 +1,4 @@
-//! What a set with its own radius for each sample owes, checked in the plainest way.
+//! The promises of a set with its own radius for each sample, checked in the plainest way.
 
 use azulejo::Points;
 use azulejo::mesh::Mesh;
@@ -32,7 +32,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
     a * d + b * e + c * f
 }
 
-/// Whether samples on triangles with these normals matter to each other.
+/// True if samples on triangles with these normals matter to each other.
 fn sees(a: [f32; 3], b: [f32; 3], cosine: f64) -> bool {
     a == b || cosine <= -1.0 || dot(a, b) >= cosine
 }

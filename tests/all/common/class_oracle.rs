@@ -1,4 +1,4 @@
-//! What sets of several classes owe, over all pairs and all places.
+//! The promises of sets of several classes, over all pairs and all places.
 
 use azulejo::{Classes, Domain, Points};
 
@@ -8,7 +8,7 @@ use crate::common::float_spacing;
 /// Positions, with a clearance for each class, row by row.
 pub type Set = (Vec<[f32; 2]>, Vec<f64>);
 
-/// What is wrong with a set around given samples, if anything is.
+/// The fault in a set around given samples, if there is one.
 pub fn fault(domain: &Domain, classes: &Classes, given: &Set, set: &Points<2>) -> Option<String> {
     let inside = |sample: &[f32; 2]| {
         (0..2).all(|axis| domain.min[axis] <= f64::from(sample[axis]) && f64::from(sample[axis]) < domain.max[axis])

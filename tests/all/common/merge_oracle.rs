@@ -1,4 +1,4 @@
-//! What a merged set owes, from the definitions.
+//! The promises of a merged set, from the definitions.
 
 use azulejo::Domain;
 use azulejo::kdrt::MergeOptions;
@@ -10,7 +10,7 @@ fn bits(sample: [f32; 2]) -> [u32; 2] {
     sample.map(f32::to_bits)
 }
 
-/// Which promise is broken, of those that hold whatever is given; if none is, how many samples of each piece went. `counts`
+/// The promise that is broken, of those that hold whatever is given; if none is, how many samples of each piece went. `counts`
 /// are those that were kept, eliminated and inserted, as they are reported.
 pub fn fault(
     options: &MergeOptions,
@@ -105,7 +105,7 @@ fn border(part: &Part, sample: [f32; 2]) -> f64 {
     sides.fold(f64::INFINITY, f64::min)
 }
 
-/// What has changed elsewhere than at the seams and at fixed points, where pieces are maximal, if anything has.
+/// A change elsewhere than at the seams and at fixed points, where pieces are maximal, if there is one.
 pub fn fault_of_seams(
     options: &MergeOptions,
     parts: &[Part],

@@ -1,4 +1,4 @@
-//! What a set in progressive order owes, checked for every sample and for some of its prefixes. Slow: O(n²).
+//! The promises of a set in progressive order, checked for every sample and for some of its prefixes. Slow: O(n²).
 
 use azulejo::mesh::Mesh;
 use azulejo::{Order, Points};
@@ -8,7 +8,7 @@ use crate::common::surface_oracle;
 use crate::common::tolerance::tolerance;
 use crate::common::triangle::distance;
 
-/// Whether every place of a mesh is within a distance of one of the positions.
+/// True if every place of a mesh is within a distance of one of the positions.
 pub fn covers(mesh: &Mesh, positions: &[[f32; 3]], within: f64) -> bool {
     let samples = Points { positions: positions.to_vec(), ..Points::<3>::default() };
     surface_oracle::gap(mesh, &samples, within, tolerance(mesh)).is_none()
@@ -19,7 +19,7 @@ fn largest_ratio(quotient: f64, prefix: usize) -> f64 {
     if prefix < Order::FIRST_COUNT { quotient.powi(2).max(2.0) * (1.0 + 1e-6) } else { quotient }
 }
 
-/// What is wrong with the order of some samples, if anything is: with the ranks, the distances of each sample from those
+/// The fault in the order of some samples, if there is one: in the ranks, the distances of each sample from those
 /// before it, or the covering radius of the first `prefixes` samples.
 pub fn disorder(mesh: &Mesh, samples: &Points<3>, quotient: f64, prefixes: &[usize]) -> Option<String> {
     let Points { positions, ranks, .. } = samples;

@@ -1,4 +1,4 @@
-//! How the checkers cut a triangle.
+//! The cuts of a triangle by the checkers.
 
 /// Four quarters of a triangle, or two halves where it is much longer than wide. Its sides are those opposite its corners.
 pub fn parts<T: Copy>(corners: [T; 3], sides: [f64; 3], middle: impl Fn(T, T) -> T) -> Vec<[T; 3]> {

@@ -1,4 +1,4 @@
-//! What a set of samples on a mesh owes, checked in the plainest way: all that is used of the library are the corners of
+//! The promises of a set of samples on a mesh, checked in the plainest way: all that is used of the library are the corners of
 //! triangles and the mask.
 
 use azulejo::Points;

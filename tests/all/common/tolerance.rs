@@ -1,4 +1,4 @@
-//! How much a maximal set may leave uncovered beyond its radius: spacings of floats.
+//! The width that a maximal set may leave uncovered beyond its radius: spacings of floats.
 
 use azulejo::Domain;
 use azulejo::mesh::Mesh;

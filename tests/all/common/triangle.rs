@@ -27,14 +27,14 @@ pub fn cross([a, b, c]: [Point; 3]) -> Point {
     })
 }
 
-/// Whether a triangle is more than a segment, up to the rounding of its area.
+/// True for a triangle that is more than a segment, up to the rounding of its area.
 pub fn has_area(corners: [Point; 3]) -> bool {
     let edge = |i: usize| length(std::array::from_fn(|axis| corners[i][axis] - corners[(i + 1) % 3][axis]));
     let longest = (0..3).map(edge).fold(0.0, f64::max);
     length(cross(corners)) > 1e-14 * longest * longest
 }
 
-/// Whether a vector is the unit normal of a triangle, up to the rounding of floats.
+/// True for a vector that is the unit normal of a triangle, up to the rounding of floats.
 pub fn is_normal(corners: [Point; 3], normal: [f32; 3]) -> bool {
     let cross = cross(corners);
     (0..3).all(|axis| (f64::from(normal[axis]) - cross[axis] / length(cross)).abs() <= 1e-6)

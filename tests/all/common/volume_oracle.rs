@@ -1,4 +1,4 @@
-//! What is promised of a set of a cuboid, tested in `f64` from the returned floats.
+//! The promises of a set of a cuboid, tested in `f64` from the returned floats.
 
 use azulejo::{Boundary, Domain};
 

@@ -7,7 +7,7 @@ use crate::common::sets::Random;
 /// The corners of a window.
 pub type Rect = ([f64; 2], [f64; 2]);
 
-/// What a window owes: the part of the whole that lies in it.
+/// The promise of a window: the part of the whole that lies in it.
 pub fn part_of(whole: &[[f32; 2]], (min, max): Rect) -> Vec<[f32; 2]> {
     let inside = |sample: &[f32; 2]| {
         (0..2).all(|axis| min[axis] <= f64::from(sample[axis]) && f64::from(sample[axis]) < max[axis])

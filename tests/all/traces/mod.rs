@@ -1,4 +1,4 @@
-//! What the tests against Embree traces are made of: meshes and rays, an oracle, and the files of recorded hits.
+//! The parts of the tests against Embree traces: meshes and rays, an oracle, and the files of recorded hits.
 
 pub mod file;
 pub mod meshes;

@@ -21,7 +21,7 @@ fn length(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Where a ray meets the plane of a triangle.
+/// The point in which a ray meets the plane of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Meeting {
     pub uv: [f64; 2],
@@ -55,23 +55,23 @@ impl Meeting {
         Some(Self { uv: [dot(from_a, p) / determinant, dot(direction, q) / determinant], t, uv_error, t_error })
     }
 
-    /// How far inside the triangle it is, in barycentrics; below zero outside.
+    /// Its depth inside the triangle, in barycentrics; below zero outside.
     fn depth(&self) -> f64 {
         let [u, v] = self.uv;
         u.min(v).min(1.0 - u - v)
     }
 
-    /// Whether no rounding can hide the hit.
+    /// True if no rounding can hide the hit.
     pub fn certain(&self) -> bool {
         self.depth() > self.uv_error && self.t > self.t_error
     }
 
-    /// Whether rounding may make a hit of it.
+    /// True if rounding may make a hit of it.
     pub fn possible(&self) -> bool {
         self.depth() >= -self.uv_error && self.t >= -self.t_error
     }
 
-    /// Whether a hit is this meeting, up to rounding.
+    /// True for a hit that is this meeting, up to rounding.
     pub fn is(&self, hit: &Hit) -> bool {
         (hit.t as f64 - self.t).abs() <= self.t_error
             && (0..2).all(|i| (hit.uv[i] as f64 - self.uv[i]).abs() <= self.uv_error)

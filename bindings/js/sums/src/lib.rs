@@ -11,7 +11,7 @@ fn text() -> &'static str {
     TEXT.get_or_init(|| all::sums(1).map_or_else(|error| error.to_string(), |list| list.to_string()))
 }
 
-/// Where the text is.
+/// The address of the text.
 #[unsafe(no_mangle)]
 pub extern "C" fn sums_text() -> *const u8 {
     text().as_ptr()

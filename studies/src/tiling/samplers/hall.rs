@@ -8,7 +8,7 @@ use azulejo_cli::draw::rows::in_parallel;
 use azulejo_cli::procedural::shapes::hall;
 use glam::Vec3;
 
-/// Where the camera stands, how far it sees to each side of the middle, and where the light comes from.
+/// The place of the camera, its view to each side of the middle, and the direction of the light.
 const EYE: Vec3 = Vec3::new(0.12, 0.93, 0.52);
 const HALF_VIEW: f32 = 0.8;
 const LIGHT: Vec3 = Vec3::new(-0.48, 0.36, 0.8);
