@@ -150,7 +150,7 @@ all_stages() {
     touch "$work/packaged"
     stage "README and guides: their programs and commands" \
         tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
-    stage "C and C++ programs: plain, under sanitizers, under valgrind" tests/c/run.sh $package/prefix --asan --valgrind
+    stage "C and C++ programs: plain, under valgrind" tests/c/run.sh $package/prefix --valgrind
     stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh
     stage "Sums on other levels of x86" scripts/platforms.sh $(if_long) x86-levels
     stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address

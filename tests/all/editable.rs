@@ -148,7 +148,8 @@ fn every_refill_makes_the_set_maximal_and_leaves_the_rest_alone() {
     session(&mesh(meshes::sheets(0.01)), &ProjectionOptions::new(0.05).cosine(0.0), 6, 8);
     session(&mesh(meshes::placed(meshes::torus(), 1e-3, 7.0)), &ProjectionOptions::new(2e-4), 7, 6);
     // Triangles far smaller than the radius, of which a stroke touches few: its samples covered others beside it.
-    session(&mesh(meshes::fine_torus(120, 60)), &ProjectionOptions::new(0.2), 9, 10);
+    let fine = mesh(meshes::fine_torus(120, 60));
+    (9..17).for_each(|seed| session(&fine, &ProjectionOptions::new(0.2), seed, 12));
 }
 
 #[test]

@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
 # Tests the C and C++ interface of an installed azulejo.
 #
-#   tests/c/run.sh PREFIX [--asan] [--valgrind]
+#   tests/c/run.sh PREFIX [--valgrind]
 #
 # The headers compile without a warning in every standard, and in C++ without exceptions and RTTI; the shared library
-# exports what symbols.txt says and has its SONAME; the test programs pass: plainly, one after the other, with --asan also
-# compiled with the address and undefined-behaviour sanitizers, with --valgrind also under valgrind, as many at a time as
-# there are cores.
+# exports what symbols.txt says and has its SONAME; the test programs pass: plainly, one after the other, with --valgrind
+# also under valgrind, as many at a time as there are cores. Sanitizers are those of sanitized.sh.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -20,7 +19,6 @@ shift
 modes=(plain)
 for option; do
     case $option in
-        --asan) modes+=(asan) ;;
         --valgrind) modes+=(valgrind) ;;
         *) usage ;;
     esac
@@ -83,29 +81,19 @@ needs_nothing_else() { # libraries that are not the C runtime's
     [ -z "$others" ] || { echo "$others"; return 1; }
 }
 
-build() { # SOURCE OUTPUT FLAG...
+# Programs are built once, for all modes.
+built=$work/built
+mkdir "$built"
+build() { # SOURCE
     local compiler=("$cxx" -std=c++17)
     case $1 in
         *.c) compiler=("$cc" -std=gnu11 -Wstrict-prototypes) ;;
         */no_exceptions*) compiler+=("${bare[@]}") ;;
     esac
-    "${compiler[@]}" -O1 -g "${@:3}" "${warnings[@]}" "${include[@]}" "$1" -o "$2" "${link[@]}"
+    "${compiler[@]}" -O1 -g "${warnings[@]}" "${include[@]}" "$1" -o "$built/$(basename "$1")" "${link[@]}"
 }
-
-# Sizes that no memory has are refused, also by the sanitizer's memory.
-export ASAN_OPTIONS=allocator_may_return_null=1
-
-# Plain programs are built once, for both modes that take them.
-built=$work/built
-mkdir "$built"
-build_plain() { build "$1" "$built/$(basename "$1")"; }
 
 run_plain() { "$built/$(basename "$1")"; }
-
-run_asan() {
-    build "$1" "$work/program" -fsanitize=address,undefined -fno-sanitize-recover=all &&
-        AZULEJO_ROUNDS=100 "$work/program"
-}
 
 run_valgrind() {
     AZULEJO_MEMORY_IS_WATCHED=1 AZULEJO_ROUNDS=10 valgrind --quiet --error-exitcode=1 --leak-check=full \
@@ -135,7 +123,7 @@ beside step "exported symbols" diff "$here/symbols.txt" "$work/symbols.txt"
 beside step "SONAME" has_soname
 beside step "needed libraries" needs_nothing_else
 for source in "${programs[@]}"; do
-    beside build_plain "$source"
+    beside build "$source"
 done
 all_done
 for mode in "${modes[@]}"; do

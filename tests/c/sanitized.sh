@@ -3,7 +3,8 @@
 #
 #   tests/c/sanitized.sh address|thread
 #
-# address: AddressSanitizer, with the overflow checks and debug assertions of Rust: the library that is fuzzed. thread:
+# address: AddressSanitizer, with the overflow checks and debug assertions of Rust: the library that is fuzzed; undefined
+# behaviour of the programs is a trap, which needs no second runtime. thread:
 # ThreadSanitizer, for what several threads do; it needs Rust's standard library instrumented, or it would not see its
 # locks. A canary shows that the Rust was instrumented: it gives the library a wrong word, which only the sanitizer can
 # see. Needs a nightly compiler, and for threads its component rust-src; what is missing is said.
@@ -12,6 +13,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 here=$root/tests/c
 sanitizer=${1:?usage: tests/c/sanitized.sh address|thread}
+checks=("-fsanitize=$sanitizer")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 . "$here/examples.sh"
@@ -31,6 +33,7 @@ case $sanitizer in
         library=$target/libazulejo_c.a
         build_library() { cargo_instrumented rustc --package azulejo-c-abi --crate-type staticlib; }
         runtime=asan
+        checks+=(-fsanitize=undefined -fsanitize-undefined-trap-on-error -fno-sanitize=vptr)
         caught="AddressSanitizer: heap-buffer-overflow"
         # without.c is for a library without Embree, and this one has it.
         mapfile -t programs < <(find "$here" -maxdepth 1 -name '*.c' ! -name without.c -o -maxdepth 1 -name '*.cpp' | sort)
@@ -70,7 +73,7 @@ build_program() { # SOURCE OUTPUT
         */no_exceptions*) compiler=(c++ -std=c++17 -fno-exceptions -fno-rtti) ;;
         *.cpp) compiler=(c++ -std=c++17) ;;
     esac
-    "${compiler[@]}" -O1 -g "-fsanitize=$sanitizer" -DEMBREE_MAJOR="${embree#embree}" -I "$root/include" -c "$1" -o "$2.o" &&
+    "${compiler[@]}" -O1 -g "${checks[@]}" -DEMBREE_MAJOR="${embree#embree}" -I "$root/include" -c "$1" -o "$2.o" &&
         c++ "$2.o" -o "$2" "$library" -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive -Wl,--export-dynamic \
             "-l$embree" -lpthread -ldl -lm -lrt
 }
