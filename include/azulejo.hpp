@@ -2256,6 +2256,47 @@ inline Status try_space_measure(const Context &context, const SpaceSet &set, dou
         set, [&](const auto *s) { return azulejo_space_measure(context.get(), s, radius, &out); });
 }
 
+/// See azulejo_space_radial_distribution.
+inline Status try_space_radial_distribution(const Context &context, const SpaceSet &set,
+                                            double reach, std::size_t bins,
+                                            std::vector<double> &out) {
+    std::vector<double> density(std::min(bins, detail::most_bins));
+    Status status = detail::measured(set, [&](const auto *s) {
+        return azulejo_space_radial_distribution(context.get(), s, reach, bins, density.data());
+    });
+    if (status.ok()) out = std::move(density);
+    return status;
+}
+
+/// See azulejo_space_spectrum.
+inline Status try_space_spectrum(const Context &context, const SpaceSet &set,
+                                 double frequency_reach, std::uint32_t frequency_stride,
+                                 double width, std::vector<Annulus> &out) {
+    // No spectrum has more annuli, and other numbers are refused.
+    const double most = width > 0 ? frequency_reach / width : 0;
+    std::vector<Annulus> annuli(most > 0 ? std::size_t(std::min(most, 1e6)) + 1 : 0);
+    std::size_t count = 0;
+    Status status = detail::measured(set, [&](const auto *s) {
+        return azulejo_space_spectrum(context.get(), s, frequency_reach, frequency_stride, width,
+                                      annuli.data(), annuli.size(), sizeof(Annulus), &count);
+    });
+    if (!status.ok()) return status;
+    annuli.resize(std::min(count, annuli.size()));
+    out = std::move(annuli);
+    return status;
+}
+
+/// See azulejo_space_axis_power.
+inline Status try_space_axis_power(const Context &context, const SpaceSet &set, std::uint32_t axis,
+                                   std::size_t count, std::vector<double> &out) {
+    std::vector<double> power(std::min(count, detail::most_bins));
+    Status status = detail::measured(set, [&](const auto *s) {
+        return azulejo_space_axis_power(context.get(), s, axis, count, power.data());
+    });
+    if (status.ok()) out = std::move(power);
+    return status;
+}
+
 /// See azulejo_mesh_uncovered_fraction.
 inline Status try_mesh_uncovered_fraction(const Context &context, const Mesh &mesh,
                                           const SpacePoints &positions, double radius,
@@ -2720,6 +2761,29 @@ inline SpaceReport space_measure(const Context &context, const SpaceSet &set, do
     SpaceReport report;
     check(try_space_measure(context, set, radius, report));
     return report;
+}
+
+inline std::vector<double> space_radial_distribution(const Context &context, const SpaceSet &set,
+                                                     double reach, std::size_t bins) {
+    std::vector<double> density;
+    check(try_space_radial_distribution(context, set, reach, bins, density));
+    return density;
+}
+
+inline std::vector<Annulus> space_spectrum(const Context &context, const SpaceSet &set,
+                                           double frequency_reach,
+                                           std::uint32_t frequency_stride = 1,
+                                           double width = 0.05) {
+    std::vector<Annulus> annuli;
+    check(try_space_spectrum(context, set, frequency_reach, frequency_stride, width, annuli));
+    return annuli;
+}
+
+inline std::vector<double> space_axis_power(const Context &context, const SpaceSet &set,
+                                            std::uint32_t axis, std::size_t count) {
+    std::vector<double> power;
+    check(try_space_axis_power(context, set, axis, count, power));
+    return power;
 }
 
 inline double mesh_uncovered_fraction(const Context &context, const Mesh &mesh,

@@ -27,6 +27,11 @@ pub(crate) fn square<T: Copy + Mul<Output = T>>(x: T) -> T {
     x * x
 }
 
+/// The side of a square, if `D` is 2, or of a cube of this content.
+pub(crate) fn side<const D: usize>(content: f64) -> f64 {
+    [|x| x, f64::sqrt, cbrt][D - 1](content)
+}
+
 /// The squared distance of two points in space, in `f64`.
 pub(crate) fn distance_squared(a: [f32; 3], b: [f32; 3]) -> f64 {
     (0..3).map(|axis| square(a[axis] as f64 - b[axis] as f64)).sum()

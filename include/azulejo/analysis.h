@@ -209,6 +209,14 @@ azulejo_status azulejo_plane_radial_distribution(const azulejo_context *context,
                                                  size_t bins,
                                                  double *out);
 
+/// The radial distribution function of points of a cuboid, in units of packed_distance, of which
+/// `reach` is at most half of the shortest side. O(count * (1 + reach^3)) time.
+azulejo_status azulejo_space_radial_distribution(const azulejo_context *context,
+                                                 const azulejo_space_set *set,
+                                                 double reach,
+                                                 size_t bins,
+                                                 double *out);
+
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 /
 /// count on a square grid of frequencies f. Its mean is 1 for a Poisson process (Ulichney 1988;
 /// Lagae and Dutre 2008). Frequencies are in units of sqrt(count / area), so that sets of different
@@ -221,9 +229,8 @@ typedef struct azulejo_spectrum_report {
     uint32_t reserved; ///< Always 0.
     double frequency_step[2]; ///< The distances of neighbouring columns and rows.
     /// The effective Nyquist frequency: half of the largest frequency up to which the mean power is
-    /// below 0.1 (Heck et al. 2013). 0.5 for a square lattice, 0.537 for a hexagonal one, 0 for a
-    /// Poisson process; the tables of the literature divide it by 0.5. -1 if the spectrum ends too
-    /// early; frequencies up to 1.5 mostly suffice.
+    /// below 0.1 (Heck et al. 2013, who divide it by 0.5). 0.5 for a square lattice, 0.537 for a
+    /// hexagonal one, 0 for a Poisson process. -1 if the spectrum ends too early, below about 1.5.
     double effective_nyquist;
     /// The oscillation: ten times the root mean square of the power's deviation from 1, by area,
     /// from the frequency where it first reaches 0.98 to 5 above it (Heck et al. 2013). 0 for a
@@ -253,12 +260,10 @@ typedef struct azulejo_annulus {
 azulejo_status azulejo_spectrum_report_init(azulejo_spectrum_report *report,
                                             size_t struct_size);
 
-/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double
-/// arithmetic: exact up to the rounding to float. A periodic domain has exact frequencies, whole
-/// numbers of waves per period. In a bounded domain points are weighted by a taper that falls to 0
-/// at the ellipse inside it, so that its edges do not show in the spectrum.
-/// - set: the points may lie outside the domain. In a bounded domain at least one must lie inside
-///   the ellipse.
+/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform: exact up to the
+/// rounding to float. A periodic domain has exact frequencies, whole numbers of waves per period.
+/// In a bounded one points have the weights of a taper that is 0 from the inscribed ellipse on.
+/// - set: the points may lie outside the domain; of a bounded one, at least one inside the ellipse.
 /// - size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
 ///   width and 1 / height.
 /// - frequency_stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that
@@ -271,8 +276,8 @@ azulejo_status azulejo_spectrum_create(const azulejo_context *context,
                                        uint32_t frequency_stride,
                                        azulejo_spectrum **out);
 
-/// Makes the mean of the spectra of sets of one kind, whose noise decreases with the square root of
-/// their number. O(count * size^2) time and memory, on the calling thread.
+/// Makes the mean of spectra of sets of one kind; noise decreases with the square root of `count`.
+/// O(count * size^2) time and memory, on the calling thread.
 /// - spectra: `count` spectra, at least 1, all of one size. They still belong to the caller.
 azulejo_status azulejo_spectrum_mean(const azulejo_spectrum *const *spectra,
                                      size_t count,
@@ -288,8 +293,7 @@ const float *azulejo_spectrum_power(const azulejo_spectrum *spectrum);
 /// The radial curves of a spectrum, mean and anisotropy, out to its largest circle. O(size^2) time
 /// on the calling thread.
 /// - width: the width of an annulus, above 0. Annuli of fewer than two frequencies are left out.
-/// - annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
-///   `capacity` is 0.
+/// - annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL for 0.
 /// - annulus_size: sizeof(azulejo_annulus).
 /// - out_count: their number, which may exceed the capacity.
 azulejo_status azulejo_spectrum_radial(const azulejo_spectrum *spectrum,
@@ -308,6 +312,31 @@ azulejo_status azulejo_spectrum_measure(const azulejo_spectrum *spectrum,
                                         double low,
                                         double high,
                                         azulejo_spectrum_report *out);
+
+/// The radial curves of the power spectrum of points of a cuboid, as azulejo_spectrum_create and
+/// azulejo_spectrum_radial, with frequencies in units of cbrt(count / volume).
+/// - frequency_reach: the largest frequency, above 0. For each point there are 8 * (frequency_reach
+///   / frequency_stride)^3 of them, 25 bytes each: AZULEJO_ERROR_TOO_LARGE if memory is short.
+/// - out_count: at most frequency_reach / width + 1.
+azulejo_status azulejo_space_spectrum(const azulejo_context *context,
+                                      const azulejo_space_set *set,
+                                      double frequency_reach,
+                                      uint32_t frequency_stride,
+                                      double width,
+                                      azulejo_annulus *annuli,
+                                      size_t capacity,
+                                      size_t annulus_size,
+                                      size_t *out_count);
+
+/// The power of points of a cuboid on an axis of frequencies, 1 for a Poisson process. Planes
+/// across the axis, such as faces of blocks, show here and not in the radial mean.
+/// - axis: 0 to 2. out: the power at 1, 2, ... `count` waves along this side of the cuboid. count:
+///   1 to 65536.
+azulejo_status azulejo_space_axis_power(const azulejo_context *context,
+                                        const azulejo_space_set *set,
+                                        uint32_t axis,
+                                        size_t count,
+                                        double *out);
 
 /// Frees the spectrum.
 void azulejo_spectrum_free(azulejo_spectrum *spectrum);

@@ -18,11 +18,11 @@ use azulejo::analysis::coverage::{
     surface_uncovered_fraction,
 };
 use azulejo::analysis::differential::{plane_differences, surface_differences};
-use azulejo::analysis::distribution::radial_distribution;
+use azulejo::analysis::distribution::{radial_distribution, radial_distribution_3d};
 use azulejo::analysis::figures::figures_2d;
 use azulejo::analysis::space::figures_3d;
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
-use azulejo::analysis::spectrum::{periodogram, sparse_periodogram};
+use azulejo::analysis::spectrum::{axis_power, periodogram, periodogram_3d, sparse_periodogram};
 use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
 use azulejo::dcr::{self, CorrelationOptions, DelaunayOptions, Neighbourhood, PairCorrelation, Stopped};
 use azulejo::kdrt::{self, CountOptions, MergeOptions, Piece, Plane, Progressive};
@@ -750,6 +750,30 @@ const ANALYSIS: &[Call] = &[
         reports: 10,
         run: |c, p| said(sparse_periodogram(c, &TORUS, &POINTS, 64, 4, p)),
         refused: &[("frequency_stride: ", |c, p| said(sparse_periodogram(c, &TORUS, &POINTS, 64, 0, p)))],
+    },
+    Call {
+        name: "analysis::spectrum::periodogram_3d",
+        reports: 10,
+        run: |c, p| said(periodogram_3d(c, &CUBE, &IN_CUBE, 1.5, 1, p)),
+        refused: &[
+            ("frequency_reach: ", |c, p| said(periodogram_3d(c, &CUBE, &IN_CUBE, 0.0, 1, p))),
+            ("frequency_stride: ", |c, p| said(periodogram_3d(c, &CUBE, &IN_CUBE, 1.5, 0, p))),
+        ],
+    },
+    Call {
+        name: "analysis::spectrum::axis_power",
+        reports: 3,
+        run: |c, p| said(axis_power(c, &CUBE, &IN_CUBE, 2, 100, p)),
+        refused: &[
+            ("axis: ", |c, p| said(axis_power(c, &CUBE, &IN_CUBE, 3, 100, p))),
+            ("count: ", |c, p| said(axis_power(c, &CUBE, &IN_CUBE, 2, 0, p))),
+        ],
+    },
+    Call {
+        name: "analysis::radial_distribution_3d",
+        reports: 3,
+        run: |c, p| said(radial_distribution_3d(c, &CUBE, &IN_CUBE, 2.0, 50, p)),
+        refused: &[("reach: ", |c, p| said(radial_distribution_3d(c, &CUBE, &IN_CUBE, 60.0, 50, p)))],
     },
     Call {
         name: "analysis::radial_distribution",

@@ -11,6 +11,7 @@ mod analysis_distribution;
 mod analysis_exact;
 mod analysis_reference;
 mod analysis_space;
+mod analysis_space_spectrum;
 mod calls;
 mod common;
 mod dcr;

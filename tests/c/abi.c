@@ -582,6 +582,12 @@ static void signatures(void) {
                                               uint64_t *) = azulejo_plane_nearest_histogram;
     azulejo_status (*plane_radial_distribution)(const azulejo_context *, const azulejo_plane_set *, double, size_t,
                                                 double *) = azulejo_plane_radial_distribution;
+    azulejo_status (*space_radial_distribution)(const azulejo_context *, const azulejo_space_set *, double, size_t,
+                                                double *) = azulejo_space_radial_distribution;
+    azulejo_status (*space_spectrum)(const azulejo_context *, const azulejo_space_set *, double, uint32_t, double,
+                                     azulejo_annulus *, size_t, size_t, size_t *) = azulejo_space_spectrum;
+    azulejo_status (*space_axis_power)(const azulejo_context *, const azulejo_space_set *, uint32_t, size_t, double *) =
+        azulejo_space_axis_power;
     azulejo_status (*spectrum_create)(const azulejo_context *, const azulejo_plane_set *, uint32_t, uint32_t,
                                       azulejo_spectrum **) = azulejo_spectrum_create;
     const char *(*status_name)(azulejo_status) = azulejo_status_name;
@@ -590,7 +596,7 @@ static void signatures(void) {
     CHECK(psp_points && psp_sample && psp_sample_classes && psp_classes_with_density && dcr_relax && dcr_relax_classes && dcr_correlation_of_power && dcr_relax_to_correlation && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
-    CHECK(space_coverage && space_measure);
+    CHECK(space_coverage && space_measure && space_radial_distribution && space_spectrum && space_axis_power);
     CHECK(relax_options_init && relax_report_init && volume_relax);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);

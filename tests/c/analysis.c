@@ -141,6 +141,54 @@ static void spaces(void) {
     CHECK(coverage.gaps == 77 && report.count == 77);
 }
 
+/* Of a lattice of cubes all power is at the multiples of one wave per cube, and all pairs at the lengths of its vectors. */
+static void spaces_of_waves(void) {
+    azulejo_space_set set = cubes();
+    azulejo_annulus annuli[16];
+    double power[2 * SIDE], density[20];
+    size_t count = 0, again = 77;
+    ACCEPTED(azulejo_space_spectrum(context, &set, 1.05, 1, 0.1, annuli, COUNT_OF(annuli), sizeof *annuli, &count));
+    CHECK(count > 5 && count <= 11);
+    for (size_t i = 0; i < count; i++) {
+        CHECK(i == 0 || annuli[i].frequency > annuli[i - 1].frequency);
+        CHECK(annuli[i].count >= 2 && (annuli[i].frequency < 0.99 ? annuli[i].power < 1e-6 : annuli[i].power > 1));
+    }
+    ACCEPTED(azulejo_space_spectrum(context, &set, 1.05, 1, 0.1, NULL, 0, sizeof *annuli, &again));
+    CHECK(again == count);
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        ACCEPTED(azulejo_space_axis_power(context, &set, axis, COUNT_OF(power), power));
+        for (int i = 0; i < 2 * SIDE; i++) CHECK(near(power[i], (i + 1) % SIDE ? 0 : CUBES, 1e-6 * CUBES));
+    }
+    /* Six neighbours at 1, twelve at sqrt(2), 1.26 of the unit, cbrt(sqrt(2)). */
+    ACCEPTED(azulejo_space_radial_distribution(context, &set, 1.5, COUNT_OF(density), density));
+    for (int i = 0; i < 20; i++) CHECK((density[i] > 0) == (i == 11 || i == 16));
+
+    power[0] = density[0] = 77;
+    count = 77;
+    REFUSED(INVALID, "context", azulejo_space_spectrum(NULL, &set, 1, 1, 0.1, annuli, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "set: is NULL", azulejo_space_spectrum(context, NULL, 1, 1, 0.1, annuli, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "frequency_reach", azulejo_space_spectrum(context, &set, 0, 1, 0.1, annuli, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "frequency_reach",
+            azulejo_space_spectrum(context, &set, 1e9, 1, 0.1, annuli, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "frequency_stride", azulejo_space_spectrum(context, &set, 1, 0, 0.1, annuli, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "width", azulejo_space_spectrum(context, &set, 1, 1, NAN, annuli, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "annuli", azulejo_space_spectrum(context, &set, 1, 1, 0.1, NULL, 1, sizeof *annuli, &count));
+    REFUSED(INVALID, "annulus_size: 24", azulejo_space_spectrum(context, &set, 1, 1, 0.1, annuli, 1, 24, &count));
+    REFUSED(INVALID, "out_count", azulejo_space_spectrum(context, &set, 1, 1, 0.1, annuli, 1, sizeof *annuli, NULL));
+    REFUSED(INVALID, "context", azulejo_space_axis_power(NULL, &set, 0, 1, power));
+    REFUSED(INVALID, "axis", azulejo_space_axis_power(context, &set, 3, 1, power));
+    REFUSED(INVALID, "count: 0", azulejo_space_axis_power(context, &set, 0, 0, power));
+    REFUSED(INVALID, "count: 65537", azulejo_space_axis_power(context, &set, 0, 65537, power));
+    REFUSED(INVALID, "out", azulejo_space_axis_power(context, &set, 0, 1, NULL));
+    REFUSED(INVALID, "context", azulejo_space_radial_distribution(NULL, &set, 1, 4, density));
+    REFUSED(INVALID, "reach", azulejo_space_radial_distribution(context, &set, 100, 4, density));
+    REFUSED(INVALID, "bins", azulejo_space_radial_distribution(context, &set, 1, 0, density));
+    REFUSED(INVALID, "out", azulejo_space_radial_distribution(context, &set, 1, 4, NULL));
+    set.count = 1;
+    REFUSED(INVALID, "positions", azulejo_space_radial_distribution(context, &set, 1, 4, density));
+    CHECK(count == 77 && power[0] == 77 && density[0] == 77);
+}
+
 static void distributions(void) {
     double density[40];
     uint64_t histogram[41], sum = 0;
@@ -429,6 +477,7 @@ int main(void) {
     make_sets();
     planes();
     spaces();
+    spaces_of_waves();
     distributions();
     spectra();
     surfaces();

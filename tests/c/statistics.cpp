@@ -70,6 +70,16 @@ void spaces() {
     CHECK(azulejo::space_coverage(context, set, 0.1).gaps == 0);
     const azulejo::Cuboid cuboid({0, 0, 0}, {1.5, 1, 1}, AZULEJO_BOUNDARY_BOUNDED);
     CHECK(azulejo::space_coverage(context, {points, cuboid}, 0.1).covering_radius > report.covering_radius);
+    const auto annuli = azulejo::space_spectrum(context, set, 1.2);
+    CHECK(annuli.size() > 15 && annuli.size() <= 25 && annuli.front().power < 0.3 && annuli.back().power > 0.5);
+    CHECK(azulejo::space_spectrum(context, set, 1.2, 2, 0.2).size() < annuli.size());
+    const auto power = azulejo::space_axis_power(context, set, 2, 12);
+    CHECK(power.size() == 12 && power[0] < 0.5 && power[11] > 0);
+    const auto density = azulejo::space_radial_distribution(context, set, 2, 20);
+    CHECK(density.size() == 20 && density[5] == 0 && density[8] > 1);
+    CHECK(refused("width", [&] { azulejo::space_spectrum(context, set, 1.2, 1, 0); }));
+    CHECK(refused("count", [&] { azulejo::space_axis_power(context, set, 0, 0); }));
+    CHECK(refused("reach", [&] { azulejo::space_radial_distribution(context, set, 1e9, 20); }));
     const std::vector<float> odd(7);
     CHECK(refused("positions: 7", [&] { azulejo::space_measure(context, {odd}); }));
 }

@@ -1,11 +1,11 @@
-//! Power spectra of sets of the plane.
+//! Power spectra of sets of the plane and of cuboids.
 
 use azulejo_core::Error;
-use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram};
+use azulejo_core::analysis::spectrum::{Annulus, Periodogram, axis_power, periodogram_3d, sparse_periodogram};
 
 use crate::boundary::{self, Out, array, check_pointer};
 use crate::context::azulejo_context;
-use crate::domain::{PlaneSet, azulejo_plane_set};
+use crate::domain::{PlaneSet, SpaceSet, azulejo_plane_set, azulejo_space_set};
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles::{self, handle};
 use crate::status::{Failure, azulejo_status};
@@ -46,9 +46,8 @@ pub struct azulejo_spectrum_report {
     /// The distances of neighbouring columns and rows.
     pub frequency_step: [f64; 2],
     /// The effective Nyquist frequency: half of the largest frequency up to which the mean power is
-    /// below 0.1 (Heck et al. 2013). 0.5 for a square lattice, 0.537 for a hexagonal one, 0 for a
-    /// Poisson process; the tables of the literature divide it by 0.5. -1 if the spectrum ends too
-    /// early; frequencies up to 1.5 mostly suffice.
+    /// below 0.1 (Heck et al. 2013, who divide it by 0.5). 0.5 for a square lattice, 0.537 for a
+    /// hexagonal one, 0 for a Poisson process. -1 if the spectrum ends too early, below about 1.5.
     pub effective_nyquist: f64,
     /// The oscillation: ten times the root mean square of the power's deviation from 1, by area,
     /// from the frequency where it first reaches 0.98 to 5 above it (Heck et al. 2013). 0 for a
@@ -85,13 +84,11 @@ pub unsafe extern "C" fn azulejo_spectrum_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform in double
-/// arithmetic: exact up to the rounding to float. A periodic domain has exact frequencies, whole
-/// numbers of waves per period. In a bounded domain points are weighted by a taper that falls to 0
-/// at the ellipse inside it, so that its edges do not show in the spectrum.
+/// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform: exact up to the
+/// rounding to float. A periodic domain has exact frequencies, whole numbers of waves per period.
+/// In a bounded one points have the weights of a taper that is 0 from the inscribed ellipse on.
 ///
-/// set: the points may lie outside the domain. In a bounded domain at least one must lie inside the
-/// ellipse.
+/// set: the points may lie outside the domain; of a bounded one, at least one inside the ellipse.
 ///
 /// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
 /// width and 1 / height.
@@ -122,8 +119,8 @@ pub unsafe extern "C" fn azulejo_spectrum_create(
     })
 }
 
-/// Makes the mean of the spectra of sets of one kind, whose noise decreases with the square root of
-/// their number. O(count * size^2) time and memory, on the calling thread.
+/// Makes the mean of spectra of sets of one kind; noise decreases with the square root of `count`.
+/// O(count * size^2) time and memory, on the calling thread.
 ///
 /// spectra: `count` spectra, at least 1, all of one size. They still belong to the caller.
 #[unsafe(no_mangle)]
@@ -163,8 +160,7 @@ pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectru
 ///
 /// width: the width of an annulus, above 0. Annuli of fewer than two frequencies are left out.
 ///
-/// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL if
-/// `capacity` is 0.
+/// annuli: receives at most `capacity` of them, from the lowest frequency; may be NULL for 0.
 ///
 /// annulus_size: sizeof(azulejo_annulus).
 ///
@@ -180,22 +176,48 @@ pub unsafe extern "C" fn azulejo_spectrum_radial(
 ) -> azulejo_status {
     boundary::call(|| {
         // SAFETY: handed on from the caller.
-        let out_count = unsafe { Out::new(out_count) };
-        out_count.check("out_count")?;
+        let annuli = unsafe { Annuli::new(annuli, capacity, annulus_size, out_count) }?;
         // SAFETY: handed on from the caller.
         let spectrum = unsafe { handles::get("spectrum", spectrum) }?;
-        growing::check_element_size::<azulejo_annulus>("annulus_size", annulus_size)?;
-        if capacity > 0 {
-            check_pointer("annuli", annuli.cast_const())?;
-        }
-        let curve: Vec<_> = spectrum.periodogram.radial(width)?.into_iter().map(azulejo_annulus::from).collect();
-        for (i, &annulus) in curve.iter().take(capacity).enumerate() {
-            // SAFETY: below the caller's capacity, and no longer than the caller's elements.
-            unsafe { annuli.byte_add(i * annulus_size).write(annulus) };
-        }
-        out_count.write(curve.len());
+        annuli.write(spectrum.periodogram.radial(width)?);
         Ok(())
     })
+}
+
+/// The caller's array of annuli.
+struct Annuli {
+    start: *mut azulejo_annulus,
+    capacity: usize,
+    size: usize,
+    count: Out<usize>,
+}
+
+impl Annuli {
+    /// # Safety
+    /// Unless the checks fail, `start` leads to `capacity` elements of `size` bytes, and `count` to a number.
+    unsafe fn new(
+        start: *mut azulejo_annulus,
+        capacity: usize,
+        size: usize,
+        count: *mut usize,
+    ) -> Result<Self, Failure> {
+        // SAFETY: handed on from the caller.
+        let count = unsafe { Out::new(count) };
+        count.check("out_count")?;
+        growing::check_element_size::<azulejo_annulus>("annulus_size", size)?;
+        if capacity > 0 {
+            check_pointer("annuli", start.cast_const())?;
+        }
+        Ok(Self { start, capacity, size, count })
+    }
+
+    fn write(self, curve: Vec<Annulus>) {
+        self.count.write(curve.len());
+        for (i, annulus) in curve.into_iter().take(self.capacity).enumerate() {
+            // SAFETY: below the caller's capacity, and no longer than the caller's elements.
+            unsafe { self.start.byte_add(i * self.size).write(annulus.into()) };
+        }
+    }
 }
 
 impl From<Annulus> for azulejo_annulus {
@@ -248,6 +270,76 @@ fn unless_too_small(figure: azulejo_core::Result<f64>) -> azulejo_core::Result<f
         Err(Error::InvalidArgument { argument: "size", .. }) => Ok(-1.0),
         other => other,
     }
+}
+
+/// The radial curves of the power spectrum of points of a cuboid, as azulejo_spectrum_create and
+/// azulejo_spectrum_radial, with frequencies in units of cbrt(count / volume).
+///
+/// frequency_reach: the largest frequency, above 0. For each point there are 8 * (frequency_reach /
+/// frequency_stride)^3 of them, 25 bytes each: AZULEJO_ERROR_TOO_LARGE if memory is short.
+///
+/// out_count: at most frequency_reach / width + 1.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_spectrum(
+    context: *const azulejo_context,
+    set: *const azulejo_space_set,
+    frequency_reach: f64,
+    frequency_stride: u32,
+    width: f64,
+    annuli: *mut azulejo_annulus,
+    capacity: usize,
+    annulus_size: usize,
+    out_count: *mut usize,
+) -> azulejo_status {
+    boundary::call(|| {
+        // SAFETY: handed on from the caller.
+        let annuli = unsafe { Annuli::new(annuli, capacity, annulus_size, out_count) }?;
+        // SAFETY: handed on from the caller.
+        let set = unsafe { SpaceSet::read(context, set) }?;
+        check_width(width)?;
+        let stride = frequency_stride as usize;
+        let periodogram = set.run(|context, domain, points, progress| {
+            periodogram_3d(context, domain, points, frequency_reach, stride, progress)
+        })?;
+        annuli.write(periodogram.radial(width)?);
+        Ok(())
+    })
+}
+
+/// Refused before any work.
+fn check_width(width: f64) -> Result<(), Failure> {
+    if width > 0.0 && width.is_finite() {
+        return Ok(());
+    }
+    Err(Failure::invalid("width", format!("{width} is not a positive finite number")))
+}
+
+/// The power of points of a cuboid on an axis of frequencies, 1 for a Poisson process. Planes
+/// across the axis, such as faces of blocks, show here and not in the radial mean.
+///
+/// axis: 0 to 2. out: the power at 1, 2, ... `count` waves along this side of the cuboid.
+/// count: 1 to 65536.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_axis_power(
+    context: *const azulejo_context,
+    set: *const azulejo_space_set,
+    axis: u32,
+    count: usize,
+    out: *mut f64,
+) -> azulejo_status {
+    boundary::call(|| {
+        if count > 0 {
+            check_pointer("out", out.cast_const())?;
+        }
+        // SAFETY: handed on from the caller.
+        let set = unsafe { SpaceSet::read(context, set) }?;
+        let power = set.run(|context, domain, points, progress| {
+            axis_power(context, domain, points, axis as usize, count, progress)
+        })?;
+        // SAFETY: one number for each of the caller's frequencies.
+        unsafe { boundary::write(out, &power) };
+        Ok(())
+    })
 }
 
 /// Frees the spectrum.

@@ -1,7 +1,7 @@
 //! Statistics of sets of the plane: spacing, order, triangles and distances; and of cuboids.
 
 use azulejo_core::Domain;
-use azulejo_core::analysis::distribution::radial_distribution;
+use azulejo_core::analysis::distribution::{radial_distribution, radial_distribution_3d};
 use azulejo_core::analysis::figures::{Figures, figures_2d};
 use azulejo_core::analysis::space::{SpaceFigures, figures_3d};
 use azulejo_core::analysis::spacing::{nearest_distances_2d, nearest_histogram_2d, spacing_2d};
@@ -274,6 +274,29 @@ pub unsafe extern "C" fn azulejo_plane_radial_distribution(
         let set = unsafe { PlaneSet::read(context, set) }?;
         let distribution = set.run(|context, domain, points, progress| {
             radial_distribution(context, domain, points, reach, bins, progress)
+        })?;
+        // SAFETY: one number for each of the caller's bins.
+        unsafe { boundary::write(out, &distribution.density()) };
+        Ok(())
+    })
+}
+
+/// The radial distribution function of points of a cuboid, in units of packed_distance, of which
+/// `reach` is at most half of the shortest side. O(count * (1 + reach^3)) time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_radial_distribution(
+    context: *const azulejo_context,
+    set: *const azulejo_space_set,
+    reach: f64,
+    bins: usize,
+    out: *mut f64,
+) -> azulejo_status {
+    boundary::call(|| {
+        check_bins(out, bins)?;
+        // SAFETY: handed on from the caller.
+        let set = unsafe { SpaceSet::read(context, set) }?;
+        let distribution = set.run(|context, domain, points, progress| {
+            radial_distribution_3d(context, domain, points, reach, bins, progress)
         })?;
         // SAFETY: one number for each of the caller's bins.
         unsafe { boundary::write(out, &distribution.density()) };

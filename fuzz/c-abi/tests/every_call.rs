@@ -568,6 +568,15 @@ fn points() {
         let radius = 0.99 * coverage.covering_radius;
         assert_eq!(azulejo_space_coverage(context.get(), &set, radius, &mut coverage), AZULEJO_OK);
         assert!(coverage.gaps > 0);
+        let mut annulus = azulejo_annulus { frequency: 0.0, power: 0.0, anisotropy: 0.0, count: 0 };
+        let size = size_of::<azulejo_annulus>();
+        let radial = |out: Out<_>| azulejo_space_spectrum(context.get(), &set, 1.0, 1, 2.0, &mut annulus, 1, size, out);
+        assert_eq!(value(radial), 1);
+        assert!(annulus.count >= 2);
+        let (mut power, mut density) = ([-1.0; 2], [-1.0; 2]);
+        assert_eq!(azulejo_space_axis_power(context.get(), &set, 2, 2, power.as_mut_ptr()), AZULEJO_OK);
+        assert_eq!(azulejo_space_radial_distribution(context.get(), &set, 0.3, 2, density.as_mut_ptr()), AZULEJO_OK);
+        assert!(power.iter().chain(&density).all(|&figure| figure >= 0.0));
         assert!(value(|out| azulejo_space_smallest_distance(context.get(), xy.as_ptr(), 2, out)) > 0.0);
         let mesh = mesh();
         let uncovered =

@@ -76,7 +76,7 @@ impl Periodogram {
         let risen = curve.iter().position(|annulus| annulus.power >= RISEN);
         let Some(first) = risen.or_else(|| (0..curve.len()).max_by(|&a, &b| curve[a].power.total_cmp(&curve[b].power)))
         else {
-            return Err(Error::invalid("size", format!("{} frequencies have no annulus of {width}", self.size)));
+            return Err(Error::invalid("size", format!("{} frequencies have no annulus of {width}", self.size())));
         };
         let end = curve[first].frequency + RANGE;
         let last = curve[curve.len() - 1].frequency;

@@ -5,12 +5,12 @@ use crate::check;
 use crate::error::Result;
 use crate::math::hypot;
 
-/// The frequencies of about one length: a point of the radial curves.
+/// The frequencies of about one length, an annulus of the plane or a shell of space: a point of the radial curves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Annulus {
     /// The number of its frequencies, not counting a frequency and its opposite twice.
     pub count: usize,
-    /// The mean length of its frequencies, in units of sqrt(density).
+    /// The mean length of its frequencies, in units of one over the mean spacing.
     pub frequency: f64,
     /// The mean power; 1 for a Poisson process.
     pub power: f64,
@@ -21,15 +21,15 @@ pub struct Annulus {
 
 /// A frequency at which a spectrum stands out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peak {
-    /// The frequency along x and y, in units of sqrt(density); its opposite is as high.
-    pub frequency: [f64; 2],
+pub struct Peak<const D: usize = 2> {
+    /// The frequency along each axis, in units of one over the mean spacing; its opposite is as high.
+    pub frequency: [f64; D],
     /// Its power over the mean of its annulus. By chance alone the largest of n frequencies of a single periodogram is
     /// about ln n.
     pub over_mean: f64,
 }
 
-/// Annuli of one width, which hold all frequencies out to the largest circle of the grid.
+/// Annuli of one width, which hold all frequencies out to the largest circle, or ball, of the grid.
 pub(super) struct Annuli {
     width: f64,
     /// The radius of the largest circle.
@@ -45,8 +45,9 @@ impl Annuli {
     }
 }
 
-impl Periodogram {
-    /// The radial curves in annuli of `width`, in units of sqrt(density), out to the largest circle of the grid.
+impl<const D: usize> Periodogram<D> {
+    /// The radial curves in annuli of `width`, in units of one over the mean spacing, out to the largest circle or ball of
+    /// the grid.
     /// Annuli of fewer than two frequencies are left out.
     ///
     /// # Errors
@@ -63,7 +64,7 @@ impl Periodogram {
     }
 
     /// The scatter of the power about its radial mean: the mean of the anisotropy over all frequencies with a length in
-    /// `range`, in units of sqrt(density), found in annuli of `width`. 0 if there are none.
+    /// `range`, in units of one over the mean spacing, found in annuli of `width`. 0 if there are none.
     ///
     /// The power of a large set without order over long distances is exponentially distributed about its mean, as that
     /// of a Poisson process is, so a single periodogram has a contrast of 1, up to sqrt(8 / frequencies) by chance. A
@@ -88,64 +89,73 @@ impl Periodogram {
     ///
     /// # Errors
     /// As [`Periodogram::radial`].
-    pub fn peak(&self, width: f64, waves: impl IntoIterator<Item = [i64; 2]>) -> Result<f64> {
+    pub fn peak(&self, width: f64, waves: impl IntoIterator<Item = [i64; D]>) -> Result<f64> {
         let annuli = self.annuli(width)?;
-        let over_mean = |[column, row]: [i64; 2]| {
-            let [count, _, power, _] = annuli.sums[annuli.index(self.frequency(column, row))?];
+        let over_mean = |wave: [i64; D]| {
+            let [count, _, power, _] = annuli.sums[annuli.index(self.frequency(wave))?];
             let mean = power / count;
-            (mean > 0.0).then(|| self.at(column, row) / mean)
+            (mean > 0.0).then(|| self.at(wave) / mean)
         };
         Ok(waves.into_iter().filter_map(over_mean).fold(0.0, f64::max))
     }
 
-    /// Searches the frequencies with a length in `range`, in units of sqrt(density), for the one whose power exceeds
+    /// Searches the frequencies with a length in `range`, in units of one over the mean spacing, for the one whose power exceeds
     /// the mean of its annulus of `width` the most: repeated parts and lattices show there. None if it is all 0.
     ///
     /// # Errors
     /// As [`Periodogram::radial`].
-    pub fn highest_peak(&self, width: f64, range: std::ops::Range<f64>) -> Result<Option<Peak>> {
+    pub fn highest_peak(&self, width: f64, range: std::ops::Range<f64>) -> Result<Option<Peak<D>>> {
         let annuli = self.annuli(width)?;
-        let peaks = self.half_plane().filter_map(|[column, row]| {
-            let frequency = self.frequency(column, row);
+        let peaks = self.half_space().filter_map(|wave| {
+            let frequency = self.frequency(wave);
             let sums = annuli.sums[annuli.index(frequency).filter(|_| range.contains(&frequency))?];
             let mean = sums[2] / sums[0];
-            let along = [column as f64 * self.frequency_step[0], row as f64 * self.frequency_step[1]];
-            (mean > 0.0).then(|| Peak { frequency: along, over_mean: self.at(column, row) / mean })
+            let along = std::array::from_fn(|axis| wave[axis] as f64 * self.frequency_step[axis]);
+            (mean > 0.0).then(|| Peak { frequency: along, over_mean: self.at(wave) / mean })
         });
         Ok(peaks.reduce(|highest, peak| if peak.over_mean > highest.over_mean { peak } else { highest }))
     }
 
-    /// The frequencies but 0, in columns and rows from it: of each and its opposite, whose power is the same, one.
-    fn half_plane(&self) -> impl Iterator<Item = [i64; 2]> + use<> {
-        let half = (self.size / 2) as i64;
-        let end = self.size as i64 - half;
-        let rows = (0..end).flat_map(move |row| (-half..end).map(move |column| [column, row]));
-        rows.filter(|&[column, row]| row > 0 || column > 0)
+    /// The frequencies but 0, in steps along the axes from it: of each and its opposite, whose power is the same, one.
+    fn half_space(&self) -> impl Iterator<Item = [i64; D]> + use<D> {
+        let (size, last) = (self.size, D - 1);
+        let half = size.map(|size| size / 2);
+        let count = size[..last].iter().product::<usize>() * (size[last] - half[last]);
+        let waves = (0..count).map(move |mut number| {
+            std::array::from_fn(|axis| {
+                if axis == last {
+                    return number as i64;
+                }
+                let along = number % size[axis];
+                number /= size[axis];
+                along as i64 - half[axis] as i64
+            })
+        });
+        waves.filter(|wave: &[i64; D]| wave.iter().rev().find(|&&along| along != 0).is_some_and(|&along| along > 0))
     }
 
-    /// The power at a frequency of the grid, in columns and rows from frequency 0.
-    fn at(&self, column: i64, row: i64) -> f64 {
-        let half = (self.size / 2) as i64;
-        f64::from(self.power[((row + half) * self.size as i64 + column + half) as usize])
+    /// The power at a frequency of the grid, in steps along the axes from frequency 0.
+    fn at(&self, wave: [i64; D]) -> f64 {
+        let place =
+            |place: usize, axis: usize| place * self.size[axis] + (wave[axis] + (self.size[axis] / 2) as i64) as usize;
+        f64::from(self.power[(0..D).rev().fold(0, place)])
     }
 
-    /// The length of a frequency, in units of sqrt(density).
-    fn frequency(&self, column: i64, row: i64) -> f64 {
-        hypot(column as f64 * self.frequency_step[0], row as f64 * self.frequency_step[1])
+    /// The length of a frequency, in units of one over the mean spacing.
+    fn frequency(&self, wave: [i64; D]) -> f64 {
+        (0..D).map(|axis| wave[axis] as f64 * self.frequency_step[axis]).fold(0.0, hypot)
     }
 
     /// Sums up the power in annuli.
     pub(super) fn annuli(&self, width: f64) -> Result<Annuli> {
         check::positive("width", width)?;
-        let half = (self.size / 2) as i64;
-        let end = self.size as i64 - half;
-        let last = (end - 1) as f64 * self.frequency_step[0].min(self.frequency_step[1]);
+        let last = self.reach;
         let count = (last.min(width * 1e6) / width) as usize + 1;
         let mut annuli = Annuli { width, last, sums: vec![[0.0; 4]; count] };
-        for [column, row] in self.half_plane() {
-            let frequency = self.frequency(column, row);
+        for wave in self.half_space() {
+            let frequency = self.frequency(wave);
             if let Some(index) = annuli.index(frequency) {
-                let power = self.at(column, row);
+                let power = self.at(wave);
                 let terms = [1.0, frequency, power, power * power];
                 (0..4).for_each(|i| annuli.sums[index][i] += terms[i]);
             }
