@@ -5,7 +5,9 @@
 //! generalised winding number (`winding.rs`) is at least 1/2, or at most -1/2 for triangles that face inwards. Both ask a tree
 //! of the triangles (`tree.rs`).
 
+mod content;
 mod crossing;
+mod nearest;
 mod sides;
 mod tree;
 mod winding;
@@ -87,6 +89,12 @@ impl Interior {
         let chunks = chunks(positions.len());
         let of = |chunk: usize| positions[chunks.range(chunk)].iter().map(|&point| self.contains(point)).collect();
         context.run(progress, |job| job.flat_map(chunks.len(), of))
+    }
+
+    /// The place of the surface that is nearest to another, and the square of its distance, if that is less than that of `within`.
+    /// The distance is right to 1e-7 of the size of triangles.
+    pub(crate) fn nearest(&self, place: [f64; 3], within: f64) -> Option<([f64; 3], f64)> {
+        self.tree.nearest(place, within)
     }
 
     /// Visits the corners of the triangles whose boxes touch a box.

@@ -1,4 +1,4 @@
-//! A tree of triangles with boxes: those that a ray along +x can cross, and those near a box.
+//! A tree of triangles with boxes: those that a ray along +x can cross, those near a box, and those nearest to a place.
 //!
 //! Triangles are sorted along the Z-curve; eight in a row have a node, eight nodes in a row have one above, up to the root. So
 //! the tree has no pointers, and the boxes of a node's children are tested together.
@@ -26,6 +26,23 @@ impl Boxes {
     fn hull(&self) -> [[f32; 3]; 2] {
         let low = self.low.map(|low| low.into_iter().fold(f32::INFINITY, f32::min));
         [low, self.high.map(|high| high.into_iter().fold(f32::NEG_INFINITY, f32::max))]
+    }
+
+    /// The squared distances of a place from the boxes: infinite from empty ones.
+    #[inline(always)]
+    fn distances_squared(&self, place: [f64; 3]) -> [f64; CHILDREN] {
+        let (mut squares, mut axis) = ([0.0; CHILDREN], 0);
+        while axis < 3 {
+            let mut child = 0;
+            while child < CHILDREN {
+                let (low, high) = (f64::from(self.low[axis][child]), f64::from(self.high[axis][child]));
+                let beyond = (low - place[axis]).max(place[axis] - high).max(0.0);
+                squares[child] += beyond * beyond;
+                child += 1;
+            }
+            axis += 1;
+        }
+        squares
     }
 }
 
@@ -118,13 +135,54 @@ impl Tree {
 
     /// The sum of the crossings of the ray from a point along +x.
     pub fn crossings(&self, point: [f32; 3]) -> i32 {
-        let ([x, y, z], mut sum) = (point, 0);
+        let mut sum = 0;
+        self.for_each_crossing(point, |_, crossing| sum += crossing);
+        sum
+    }
+
+    /// Visits the triangles that the ray from a point along +x may cross, each with its crossing.
+    #[inline(always)]
+    pub fn for_each_crossing(&self, point: [f32; 3], mut crossed: impl FnMut(usize, i32)) {
+        let [x, y, z] = point;
         let is_met = |Boxes { low, high }: &Boxes, k: usize| {
             let (is_beside, is_above) = ((low[1][k] <= y) & (y <= high[1][k]), (low[2][k] <= z) & (z <= high[2][k]));
             u32::from(is_beside & is_above & (x <= high[0][k]))
         };
-        self.visit(is_met, |triangle| sum += crossing(point, &self.corners[triangle]));
-        sum
+        self.visit(is_met, |triangle| crossed(triangle, crossing(point, &self.corners[triangle])));
+    }
+
+    /// Visits triangles near a place, the nearer boxes first, and no box that is farther than the square of a distance: that of
+    /// `within`, then what the last triangle gave.
+    pub fn for_each_nearest(&self, place: [f64; 3], within: f64, mut triangle: impl FnMut(usize) -> f64) {
+        let (mut stack, mut depth, mut least) = ([(0.0, 0, 0); MOST_LEVELS * CHILDREN], 1, within);
+        stack[0] = (0.0, self.levels.len() as u32 - 1, 0u32);
+        while depth > 0 {
+            depth -= 1;
+            let (squared, level, node) = stack[depth];
+            if squared > least {
+                continue;
+            }
+            let squares = self.levels[level as usize][node as usize].distances_squared(place);
+            let first = depth;
+            for (child, &squared) in squares.iter().enumerate() {
+                let number = CHILDREN as u32 * node + child as u32;
+                if squared > least {
+                    continue;
+                }
+                if level == 0 {
+                    least = triangle(number as usize);
+                } else {
+                    // The nearest is the last, which is visited next.
+                    let mut to = depth;
+                    while to > first && stack[to - 1].0 < squared {
+                        stack[to] = stack[to - 1];
+                        to -= 1;
+                    }
+                    stack[to] = (squared, level - 1, number);
+                    depth += 1;
+                }
+            }
+        }
     }
 
     /// Visits the triangles whose boxes touch a box.
@@ -150,7 +208,7 @@ fn level(boxes: impl ExactSizeIterator<Item = [[f32; 3]; 2]>) -> Vec<Boxes> {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use crate::rng::{Draw, Rng};
 

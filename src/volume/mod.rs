@@ -38,6 +38,7 @@ use crate::setters::setters;
 use crate::volume::set::{Sample, Set};
 use body::Body;
 pub use inside_options::{InsideOptions, Surface};
+pub(crate) use solid::check_closed;
 pub use solid::{InsideReport, sample_inside};
 use space::Space;
 

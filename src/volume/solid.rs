@@ -87,7 +87,7 @@ pub fn sample_inside(
 }
 
 /// Refuses a mesh that has no certain inside.
-fn check_closed(mesh: &Mesh) -> Result<()> {
+pub(crate) fn check_closed(mesh: &Mesh) -> Result<()> {
     match mesh.sides().odd_edges {
         0 => Ok(()),
         odd => {

@@ -84,6 +84,10 @@ static PIECE: LazyLock<Vec<[f32; 2]>> = LazyLock::new(|| {
 });
 static MESH: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::fine_torus(60, 30)));
 static SOLID: LazyLock<Arc<Mesh>> = LazyLock::new(|| mesh(meshes::welded(meshes::fine_torus(60, 30))));
+static IN_SOLID: LazyLock<Vec<[f32; 3]>> = LazyLock::new(|| {
+    let options = volume::InsideOptions::by_count(1500);
+    volume::sample_inside(&Context::new(1).unwrap(), &SOLID, &options, None).unwrap().0.positions
+});
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
 static CLASSES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.06, 0.03], 1.0).unwrap());
 static MULTIPLES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[1.0, 0.5], 1.0).unwrap());
@@ -472,6 +476,24 @@ const RELAXATION: &[Call] = &[
             }),
             ("tolerance: ", |c, p| {
                 said(dcr::volume::relax(c, &dcr::volume::Options::new(CUBE).tolerance(-1.0), &IN_CUBE, p))
+            }),
+        ],
+    },
+    Call {
+        name: "dcr::volume::relax_inside",
+        reports: 5,
+        run: |c, p| {
+            let options = dcr::volume::InsideOptions::default().max_iterations(30);
+            relaxed(dcr::volume::relax_inside(c, &SOLID, &options, &IN_SOLID, p), |report| report.stopped)
+        },
+        refused: &[
+            ("positions: ", |c, p| {
+                said(dcr::volume::relax_inside(c, &SOLID, &Default::default(), &[[0.5, 9.5, 0.5]], p))
+            }),
+            ("mesh: ", |c, p| said(dcr::volume::relax_inside(c, &MESH, &Default::default(), &[], p))),
+            ("fixed: ", |c, p| {
+                let options = dcr::volume::InsideOptions::default().fixed(&[true]);
+                said(dcr::volume::relax_inside(c, &SOLID, &options, &IN_SOLID, p))
             }),
         ],
     },

@@ -25,6 +25,7 @@ mod dcr_few;
 mod dcr_starts;
 mod dcr_thesis;
 mod dcr_volume;
+mod dcr_volume_inside;
 mod differential;
 mod editable;
 mod editable_plane;

@@ -15,7 +15,7 @@ fn made(mesh: &Arc<Mesh>, options: &InsideOptions) -> (Points<3>, InsideReport) 
     sample_inside(&Context::new(1).unwrap(), mesh, options, None).unwrap()
 }
 
-fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
+pub fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
@@ -46,12 +46,12 @@ fn distance_from_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> f64 {
     edges
 }
 
-fn corners(mesh: &Mesh) -> Vec<[[f64; 3]; 3]> {
+pub fn corners(mesh: &Mesh) -> Vec<[[f64; 3]; 3]> {
     let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.positions()[vertex as usize].map(f64::from));
     mesh.triangles().iter().map(corners).collect()
 }
 
-fn depth(triangles: &[[[f64; 3]; 3]], point: [f64; 3]) -> f64 {
+pub fn depth(triangles: &[[[f64; 3]; 3]], point: [f64; 3]) -> f64 {
     triangles.iter().map(|&triangle| distance_from_triangle(point, triangle)).fold(f64::INFINITY, f64::min)
 }
 
@@ -93,7 +93,7 @@ fn gap(
 }
 
 /// True if most rays in random directions cross an odd number of triangles, by sums of floats.
-fn votes_inside(mesh: &Mesh, point: [f32; 3], random: &mut Random) -> bool {
+pub fn votes_inside(mesh: &Mesh, point: [f32; 3], random: &mut Random) -> bool {
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let cross =
@@ -152,19 +152,19 @@ fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32;
     covered
 }
 
-fn scaled((mut positions, triangles): Soup, scale: f32) -> Soup {
+pub fn scaled((mut positions, triangles): Soup, scale: f32) -> Soup {
     positions.iter_mut().for_each(|p| *p = p.map(|x| x * scale));
     (positions, triangles)
 }
 
-fn cube() -> Soup {
+pub fn cube() -> Soup {
     let positions = (0..8).map(|k| [(k & 1) as f32, (k >> 1 & 1) as f32, (k >> 2) as f32]).collect();
     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     (positions, faces.iter().flat_map(|&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]]).collect())
 }
 
 /// A star of large triangles whose planes run through its inside.
-fn star() -> Soup {
+pub fn star() -> Soup {
     let (mut positions, mut triangles) = cube();
     positions.iter_mut().for_each(|p| *p = p.map(|x| x - 0.5));
     for face in 0..6 {
@@ -178,7 +178,7 @@ fn star() -> Soup {
     (positions, triangles.split_off(12))
 }
 
-fn closed_shapes() -> Vec<(&'static str, Soup, f64)> {
+pub fn closed_shapes() -> Vec<(&'static str, Soup, f64)> {
     let sphere = || meshes::welded(meshes::sphere());
     let shells = meshes::join([sphere(), scaled(sphere(), 0.7), scaled(sphere(), 0.4)]);
     vec![

@@ -87,7 +87,7 @@ fn slices_of_task(slice: usize) -> usize {
     (SLICE_POINTS / slice).clamp(FEWEST_SLICES, LINES)
 }
 
-/// What `value` makes of the sums up to `half` periods. O(points + frequencies · log frequencies).
+/// The results of `value` from the sums up to `half` periods. O(points + frequencies · log frequencies).
 pub(super) fn transform<T: Send, const D: usize>(
     job: &Job,
     points: &[Weighted<D>],

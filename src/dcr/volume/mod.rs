@@ -1,19 +1,23 @@
-//! Relaxation in cuboids: the momentum method in space.
+//! Relaxation in cuboids and inside of meshes: the momentum method in space.
 //!
 //! Points push each other away by the law of the plane, and keep their momentum. The differences:
 //!
 //! * neighbours are all points within a radius (`lists.rs`), not Delaunay stars: to close holes, the conflict radius begins
 //!   large and falls, and in most steps farther points push a little too (`relaxation.rs`);
-//! * the boundary is a wall, without mirror images (`torus.rs`);
-//! * points that are clustered are redistributed before the first step, as on meshes (`dcr/clustering.rs`): there is no Fourier
+//! * the boundary is a wall, without mirror images (`torus.rs`), or the surface of a mesh (`inside.rs`);
+//! * points of a cuboid that are clustered are redistributed before the first step, as on meshes (`dcr/clustering.rs`): there is no Fourier
 //!   transform.
 //!
 //! The plane crystallises, space does not: random packings jam at .9526 of the densest distance, and sets end below that.
 
+mod inside;
 mod lists;
 mod relaxation;
 mod smallest;
+mod solid;
 mod torus;
+
+pub use solid::{InsideOptions, relax_inside};
 
 use crate::dcr::relaxation::{Limits, Steps, Stopped, require_memory, run};
 use crate::dcr::volume::relaxation::VolumeRelaxation;
@@ -60,7 +64,7 @@ impl Options {
 
 setters!(Options { domain: Domain<3>, max_iterations: u32, seed: u64, tolerance: f64 });
 
-/// The report of [`relax`](fn@relax). `d_fcc = (sqrt(2) V / N)^(1/3)` is the distance of neighbours in the densest packing, the
+/// The report of [`relax`](fn@relax) and [`relax_inside`]. `d_fcc = (sqrt(2) V / N)^(1/3)` is the distance of neighbours in the densest packing, the
 /// face-centred cubic one, of as many points in the volume V.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -124,16 +128,37 @@ pub fn relax(
     let bytes = BYTES_PER_POINT + BYTES_PER_IMAGE * torus.images().count() as f64;
     require_memory("positions", points.len(), bytes)?;
     let mut set = VolumeRelaxation::new(torus, points, max_iterations, seed);
-    run(
+    relax_set(
         context,
         options.limits(),
         &mut set,
+        &domain,
+        domain.packed_distance(points.len().max(1)),
+        points,
+        progress,
+    )
+}
+
+/// Makes the steps of a set and measures the result.
+fn relax_set(
+    context: &Context,
+    limits: Limits,
+    set: &mut VolumeRelaxation,
+    domain: &Domain<3>,
+    packed_distance: f64,
+    points: &[[f32; 3]],
+    progress: Option<&Progress>,
+) -> Result<(Vec<[f32; 3]>, Report)> {
+    run(
+        context,
+        limits,
+        set,
         progress,
         |_| {},
         |job, set, Steps { iterations, stopped, motion }| {
             let relaxed = if iterations > 0 { set.points() } else { points.to_vec() };
-            let smallest_distance = smallest_distance(job, &domain, &relaxed)?;
-            let rho = smallest_distance / domain.packed_distance(points.len().max(1));
+            let smallest_distance = smallest_distance(job, domain, &relaxed)?;
+            let rho = smallest_distance / packed_distance;
             Ok((relaxed, Report { iterations, stopped, motion, smallest_distance, rho }))
         },
     )

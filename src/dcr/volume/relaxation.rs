@@ -1,8 +1,9 @@
-//! A set of points under relaxation in a cuboid.
+//! A set of points under relaxation in a cuboid, or inside a mesh in it.
 
 use crate::dcr::clustering::is_clustered;
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, carried};
 use crate::dcr::relaxation::Relaxation;
+use crate::dcr::volume::inside::{Inside, Near};
 use crate::dcr::volume::lists::{Lists, lists};
 use crate::dcr::volume::torus::{Place, VolumeTorus, packed, place};
 use crate::error::Result;
@@ -42,19 +43,27 @@ const FAR_RADIUS: f32 = 1.3;
 const FAR_PUSH: f32 = 0.1;
 const FAR_SHARE: f64 = 0.7;
 
+/// The directions in which a point is moved from where others are, one after the other, until one does not lead outside.
+const PARTINGS: u64 = 16;
+
 /// Moving points of a cuboid. They are in the order of a curve; the user's order is that of `order`.
-pub struct VolumeRelaxation {
+pub struct VolumeRelaxation<'a> {
     torus: VolumeTorus,
+    /// The inside of the mesh that they do not leave, if there is one.
+    inside: Option<Inside<'a>>,
     level: Level,
     max_iterations: u32,
     seed: u64,
     /// The user's number of each point.
     order: Vec<u32>,
-    /// The places of the points, and after them their images.
+    /// The places of the points, and after them their images, and those of fixed points once more: where only one of two points
+    /// moves, it is pushed twice as far.
     places: Vec<Position>,
     /// Memory for the next ones.
     next: Vec<Position>,
     velocities: Vec<[f32; 3]>,
+    /// A bound on the distance of the surface of the mesh from each point.
+    near: Vec<Near>,
     /// The number of steps made.
     steps: u32,
     lists: Vec<Lists>,
@@ -65,11 +74,12 @@ pub struct VolumeRelaxation {
     strayed: f32,
 }
 
-impl VolumeRelaxation {
+impl<'a> VolumeRelaxation<'a> {
     /// The points before the first of so many steps.
     pub fn new(torus: VolumeTorus, points: &[[f32; 3]], max_iterations: u32, seed: u64) -> Self {
         let mut set = Self {
             torus,
+            inside: None,
             level: Level::widest(),
             max_iterations,
             seed,
@@ -77,6 +87,7 @@ impl VolumeRelaxation {
             places: Vec::new(),
             next: Vec::new(),
             velocities: vec![[0.0; 3]; points.len()],
+            near: Vec::new(),
             steps: 0,
             lists: Vec::new(),
             listed: Vec::new(),
@@ -87,10 +98,20 @@ impl VolumeRelaxation {
         set
     }
 
+    /// The same points, which do not leave the inside of a mesh.
+    pub fn inside(self, inside: Inside<'a>) -> Self {
+        Self { inside: Some(inside), ..self }
+    }
+
     /// The points, in the user's order.
     pub fn points(&self) -> Vec<[f32; 3]> {
         let mut points = vec![[0.0; 3]; self.order.len()];
-        self.order.iter().zip(&self.places).for_each(|(&i, &at)| points[i as usize] = self.torus.leave(place(at)));
+        for (&i, &at) in self.order.iter().zip(&self.places) {
+            points[i as usize] = match &self.inside {
+                None => self.torus.leave(place(at)),
+                Some(inside) => inside.leave(i, place(at)),
+            };
+        }
         points
     }
 
@@ -100,6 +121,11 @@ impl VolumeRelaxation {
         self.places = self.order.iter().map(|&i| packed(places[i as usize])).collect();
         let images = self.torus.images().count();
         self.places.resize(places.len() * (1 + images), [0.0; 4]);
+        if let Some(inside) = &self.inside {
+            self.near = self.order.iter().map(|&i| Near::unknown(i, inside.is_fixed(i))).collect();
+            let fixed = self.order.iter().filter(|&&i| inside.is_fixed(i));
+            self.places.extend(fixed.map(|&i| packed(places[i as usize])));
+        }
         self.next = self.places.clone();
         self.mirror();
     }
@@ -123,8 +149,12 @@ impl VolumeRelaxation {
         places
     }
 
-    /// Other places for points that are heaped, in the user's order: those of the same rank along the curve of random ones.
+    /// Other places for points of a cuboid that are heaped, in the user's order: those of the same rank along the curve of random
+    /// ones.
     fn spread(&self, places: &[Place]) -> Option<Vec<Place>> {
+        if self.inside.is_some() {
+            return None;
+        }
         let throw = |i: usize| {
             let mut rng = Rng::at(self.seed, Draw::Spread, &[i as u64]);
             self.torus.fraction([rng.unit(), rng.unit(), rng.unit()])
@@ -139,23 +169,19 @@ impl VolumeRelaxation {
         })
     }
 
-    /// Moves all but the first of coincident points, on which forces would have no direction.
+    /// Moves all but the first of coincident points, on which forces would have no direction. Those that are fixed come first.
     fn part(&self, places: &mut [Place]) {
+        let is_fixed = |i: u32| self.inside.is_some_and(|inside| inside.is_fixed(i));
         let mut order: Vec<u32> = (0..places.len() as u32).collect();
-        order.sort_unstable_by_key(|&i| (places[i as usize], i));
+        order.sort_unstable_by_key(|&i| (places[i as usize], !is_fixed(i), i));
         let repeated = order.windows(2).filter(|pair| places[pair[0] as usize] == places[pair[1] as usize]);
-        for i in repeated.map(|pair| pair[1]).collect::<Vec<_>>() {
+        for i in repeated.map(|pair| pair[1]).filter(|&i| !is_fixed(i)).collect::<Vec<_>>() {
             let mut rng = Rng::at(self.seed, Draw::Part, &[i.into()]);
-            // A direction in the ball, away from its centre.
-            let toward = loop {
-                let toward = [rng.unit(), rng.unit(), rng.unit()].map(|x| 2.0 * x - 1.0);
-                let squared: f64 = toward.iter().map(|x| x * x).sum();
-                if (0.01..1.0).contains(&squared) {
-                    let length = PARTING * (1.0 + rng.unit()) / squared.sqrt();
-                    break toward.map(|x| (x * length) as f32);
-                }
-            };
-            places[i as usize] = self.torus.moved(places[i as usize], toward, self.torus.per_spacing()).0;
+            let from = places[i as usize];
+            let parted = (0..PARTINGS)
+                .map(|_| self.torus.moved(from, direction(&mut rng), self.torus.per_spacing()).0)
+                .find(|&to| self.inside.is_none_or(|inside| inside.holds(to)));
+            places[i as usize] = parted.unwrap_or(from);
         }
     }
 
@@ -206,6 +232,19 @@ impl VolumeRelaxation {
     }
 }
 
+/// The way of a point that is moved from where another one is.
+fn direction(rng: &mut Rng) -> [f32; 3] {
+    // A direction in the ball, away from its centre.
+    loop {
+        let toward = [rng.unit(), rng.unit(), rng.unit()].map(|x| 2.0 * x - 1.0);
+        let squared: f64 = toward.iter().map(|x| x * x).sum();
+        if (0.01..1.0).contains(&squared) {
+            let length = PARTING * (1.0 + rng.unit()) / squared.sqrt();
+            return toward.map(|x| (x * length) as f32);
+        }
+    }
+}
+
 /// The places of points along a curve through the torus, in order, with their numbers.
 fn along_curve(torus: &VolumeTorus, places: &[Place]) -> Vec<(u64, u32)> {
     let periods = torus.periods();
@@ -214,7 +253,7 @@ fn along_curve(torus: &VolumeTorus, places: &[Place]) -> Vec<(u64, u32)> {
     sorted(places.iter().map(|at| morton3(std::array::from_fn(|axis| (f64::from(at[axis]) * scales[axis]) as u32))))
 }
 
-impl Relaxation for VolumeRelaxation {
+impl Relaxation for VolumeRelaxation<'_> {
     type Position = Position;
     type Space = VolumeTorus;
 
@@ -247,8 +286,11 @@ impl Relaxation for VolumeRelaxation {
             .zip(0..)
             .map(|((lists, listed), chunk)| (lists, listed, chunk * size));
         let moved = self.next.chunks_mut(size).zip(self.velocities.chunks_mut(size));
+        // Of a cuboid there are none.
+        let mut near = self.near.chunks_mut(size);
         let moves = moves.zip(moved).map(|((lists, listed, first), (next, velocities))| Moves {
             torus: &self.torus,
+            inside: self.inside.as_ref().zip(near.next()),
             law,
             places: &self.places,
             lists,
@@ -297,6 +339,7 @@ impl Law {
 /// A step of points that follow each other.
 struct Moves<'a> {
     torus: &'a VolumeTorus,
+    inside: Option<(&'a Inside<'a>, &'a mut [Near])>,
     law: Law,
     places: &'a [Position],
     lists: &'a Lists,
@@ -314,21 +357,40 @@ impl Work for Moves<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> f32 {
-        let Self { torus, law, places, lists, listed, first, next, velocities } = self;
+        let Self { torus, mut inside, law, places, lists, listed, first, next, velocities } = self;
         let (unit, per_spacing) = (torus.unit().map(|unit| unit as f32), torus.per_spacing());
-        let mut strayed = 0f32;
+        let (mut strayed, mut number) = (0f32, 0);
         let points = places[first..].iter().zip(lists.iter()).zip(listed);
         for (((&at, list), from), (next, velocity)) in points.zip(next.iter_mut().zip(velocities)) {
+            let near = match &mut inside {
+                None => None,
+                Some((inside, near)) => Some((*inside, &mut near[number])),
+            };
+            number += 1;
+            if near.as_ref().is_some_and(|(_, near)| near.is_fixed) {
+                *next = at;
+                continue;
+            }
             let force = force(lanes, places, at, list, unit, &law);
             *velocity = carried(*velocity, force, FREE_CLEARANCE);
-            let (to, held) = torus.moved(place(at), *velocity, per_spacing);
+            let to = match near {
+                None => {
+                    let (to, held) = torus.moved(place(at), *velocity, per_spacing);
+                    let mut axis = 0;
+                    while axis < 3 {
+                        if held[axis] {
+                            velocity[axis] = 0.0;
+                        }
+                        axis += 1;
+                    }
+                    to
+                }
+                Some((inside, near)) => inside.moved(place(at), velocity, near),
+            };
             *next = packed(to);
             let mut squared = 0.0;
             let mut axis = 0;
             while axis < 3 {
-                if held[axis] {
-                    velocity[axis] = 0.0;
-                }
                 let way = to[axis].wrapping_sub(from[axis]).cast_signed() as f32 * unit[axis];
                 squared += way * way;
                 axis += 1;

@@ -50,7 +50,16 @@ pub struct VolumeTorus {
 impl VolumeTorus {
     /// The torus for `count` points, at least one.
     pub fn new(domain: Domain<3>, count: usize) -> Self {
-        let (extent, spacing) = (domain.extent(), spacing(&domain, count));
+        Self::with_spacing(domain, spacing(&domain, count))
+    }
+
+    /// The torus of a cuboid for the inside of a body in it, of this volume and surface.
+    pub fn around(domain: Domain<3>, [volume, area]: [f64; 2], count: usize) -> Self {
+        Self::with_spacing(domain, spacing_inside(volume, area, count))
+    }
+
+    fn with_spacing(domain: Domain<3>, spacing: f64) -> Self {
+        let extent = domain.extent();
         let mut torus = Self { domain, spacing, unit: [0.0; 3], last: [u32::MAX; 3], period_bits: [0; 3] };
         for (axis, side) in extent.into_iter().enumerate() {
             let length = side / spacing;
@@ -72,6 +81,16 @@ impl VolumeTorus {
             torus.unit[axis] = period / TURN;
         }
         torus
+    }
+
+    /// The cuboid.
+    pub fn domain(&self) -> Domain<3> {
+        self.domain
+    }
+
+    /// The unit of length of all forces.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
     }
 
     /// The length of 2^-32 of each period, in spacings.
@@ -109,6 +128,11 @@ impl VolumeTorus {
             let length = (f64::from(point[axis]) - self.domain.min[axis]) / self.spacing;
             self.inside(axis, (length / self.unit[axis] + 0.5) as i64)
         })
+    }
+
+    /// The place at these coordinates, in spacings from the lower corner.
+    pub fn place(&self, along: [f64; 3]) -> Place {
+        std::array::from_fn(|axis| self.inside(axis, (along[axis] / self.unit[axis] + 0.5) as i64))
     }
 
     /// The place of a point of the domain, as shares of its sides.
@@ -183,7 +207,7 @@ pub fn place([x, y, z, _]: Position) -> Place {
 }
 
 /// [`Domain::packed_distance`] of a cuboid that is as large as it is for points: its sides grow with the distance, less than
-/// that does. By halving an interval: only operations that are the same to the bit everywhere.
+/// that does.
 fn spacing(domain: &Domain<3>, count: usize) -> f64 {
     let side = |length: f64, distance: f64| match domain.boundary {
         Boundary::Bounded => (length + WALLS * distance).max(LAYER * distance),
@@ -193,7 +217,23 @@ fn spacing(domain: &Domain<3>, count: usize) -> f64 {
         let places: f64 = domain.extent().into_iter().map(|length| side(length, distance) / distance).product();
         places * std::f64::consts::SQRT_2
     };
-    let mut high = domain.extent().into_iter().fold(0.0, f64::max);
+    solved(holds, domain.extent().into_iter().fold(0.0, f64::max), count)
+}
+
+/// The same of a body: half as much is added all along its surface, which has two sides of a cuboid on each axis, and no body is
+/// thinner than a layer of points between two sides.
+fn spacing_inside(volume: f64, area: f64, count: usize) -> f64 {
+    let holds = |distance: f64| {
+        let layer = 0.5 * area * distance;
+        (volume + WALLS * layer).max(LAYER * layer) * std::f64::consts::SQRT_2 / (distance * distance * distance)
+    };
+    solved(holds, area.sqrt(), count)
+}
+
+/// The distance at which a space holds that many points; it holds fewer the larger that is. By halving an interval, beginning
+/// anywhere above 0: only operations that are the same to the bit everywhere.
+fn solved(holds: impl Fn(f64) -> f64, start: f64, count: usize) -> f64 {
+    let mut high = start;
     while holds(high) > count as f64 {
         high *= 2.0;
     }
