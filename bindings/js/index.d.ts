@@ -893,6 +893,38 @@ export function planeCoverage(positions: Numbers, radius: number, options?: Doma
 /** The gaps of points of a cuboid, x y z each, for a radius; places within half of it of each other are of one gap. */
 export function spaceCoverage(positions: Numbers, radius: number, options?: Cuboid & Watched): Coverage;
 
+/**
+ * The radial distribution function of points of a cuboid, x y z each, in `bins` bins from 0 to `reach`, in units of
+ * packedDistance: 1 where pairs are as frequent as of random points.
+ */
+export function spaceRadialDistribution(
+    positions: Numbers,
+    reach: number,
+    bins: number,
+    options?: Cuboid & Watched,
+): Float64Array;
+
+/**
+ * The radial curves of the power spectrum of points of a cuboid, x y z each, up to a frequency in units of cbrt(density), as
+ * those of the result are.
+ */
+export function spaceSpectrum(
+    positions: Numbers,
+    frequencyReach: number,
+    options?: Cuboid & Watched & {
+        /** 1, the default, takes all frequencies; k, up to 4096, every k-th along the axes. */
+        frequencyStride?: number;
+        /** The width of a shell; default 0.05. */
+        width?: number;
+    },
+): Annulus[];
+
+/**
+ * The power of points of a cuboid, x y z each, on an axis (0 to 2) of frequencies: at 1, 2, ... `count` (up to 65536) waves along
+ * a side. 1 is that of random points; planes across the axis show here and not in the radial mean.
+ */
+export function spaceAxisPower(positions: Numbers, axis: number, count: number, options?: Cuboid & Watched): Float64Array;
+
 /** The gaps of positions on a mesh, x y z each, for a radius. */
 export function meshCoverage(mesh: Mesh, positions: Numbers, radius: number, options?: Watched): Coverage;
 
@@ -925,7 +957,7 @@ export function planeRadialDistribution(
 
 /** An annulus of a spectrum. */
 export interface Annulus {
-    /** Its mean frequency, in units of sqrt(density). */
+    /** Its mean frequency, in units of one over the mean spacing: sqrt(density) in the plane. */
     frequency: number;
     /** The mean power: 1 is that of random points. */
     power: number;

@@ -106,6 +106,7 @@ const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
 const RELAX_SURFACE = { ...WATCHED, maxIterations: 100, tolerance: 0.0005, seed: 0 };
 const THIN = { ...WATCHED, radius: 0, count: 0, order: "any", seed: 0 };
 const SPECTRA = { ...DOMAIN, frequencyStride: 1 };
+const SPACE_SPECTRUM = { ...CUBOID, frequencyStride: 1, width: 0.05 };
 const SPECTRUM = { ...DOMAIN, size: 256, width: 0.02 };
 const DIFFERENCES = { ...WATCHED, direction: [1, 0, 0], seed: 0 };
 const PROBES = { ...WATCHED, probes: 100_000, seed: 0 };
@@ -976,6 +977,37 @@ export function spaceCoverage(positions, radius, options) {
     }, options);
 }
 
+export function spaceRadialDistribution(positions, reach, bins, options) {
+    options = withDefaults(CUBOID, options);
+    return calling((call) => {
+        const place = call.options(domainOf(options, 3));
+        const args = [place, reach, whole("bins", bins), ...call.rows("positions", positions, Float32Array, 3)];
+        return call.make("space_radial_distribution", args, Float64Array)[0];
+    }, options);
+}
+
+export function spaceSpectrum(positions, frequencyReach, options) {
+    options = withDefaults(SPACE_SPECTRUM, options);
+    return calling((call) => {
+        const place = call.options(domainOf(options, 3));
+        const args = [
+            place, frequencyReach, whole("frequencyStride", options.frequencyStride), options.width,
+            ...call.rows("positions", positions, Float32Array, 3),
+        ];
+        return annuliOf(call.make("space_spectrum", args, Float64Array)[0]);
+    }, options);
+}
+
+export function spaceAxisPower(positions, axis, count, options) {
+    options = withDefaults(CUBOID, options);
+    return calling((call) => {
+        const place = call.options(domainOf(options, 3));
+        const sizes = [whole("axis", axis), whole("count", count)];
+        const args = [place, ...sizes, ...call.rows("positions", positions, Float32Array, 3)];
+        return call.make("space_axis_power", args, Float64Array)[0];
+    }, options);
+}
+
 export function meshMeasure(mesh, positions, options) {
     options = withDefaults(WATCHED, options);
     return calling((call) => {
@@ -1034,6 +1066,13 @@ function meanOf(argument, kind, Kind, all) {
     return created(`${kind}_mean`, (call) => call.rows(argument, pointers, Uint32Array, 1))[0];
 }
 
+function annuliOf(numbers) {
+    return Array.from({ length: numbers.length / 4 }, (_, i) => {
+        const [frequency, power, anisotropy, count] = numbers.subarray(4 * i, 4 * i + 4);
+        return { frequency, power, anisotropy, count };
+    });
+}
+
 export class Spectrum extends Handle {
     constructor(positions, size, options) {
         if (positions === MADE) {
@@ -1060,11 +1099,7 @@ export class Spectrum extends Handle {
     }
 
     radial(width = 0.05) {
-        const [numbers] = calling((call) => call.make("spectrum_radial", [this.pointer, width], Float64Array));
-        return Array.from({ length: numbers.length / 4 }, (_, i) => {
-            const [frequency, power, anisotropy, count] = numbers.subarray(4 * i, 4 * i + 4);
-            return { frequency, power, anisotropy, count };
-        });
+        return annuliOf(calling((call) => call.make("spectrum_radial", [this.pointer, width], Float64Array))[0]);
     }
 
     measure(low, high, width) {

@@ -823,6 +823,40 @@ def space_measure(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> SpaceReport: ...
+def space_radial_distribution(
+    positions: ArrayLike,
+    reach: SupportsFloat,
+    bins: SupportsIndex,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> NDArray[np.float64]: ...
+def space_spectrum(
+    positions: ArrayLike,
+    frequency_reach: SupportsFloat,
+    frequency_stride: SupportsIndex = 1,
+    *,
+    width: SupportsFloat = 0.05,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> NDArray[np.float64]: ...
+def space_axis_power(
+    positions: ArrayLike,
+    axis: SupportsIndex,
+    count: SupportsIndex,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: Optional[_Boundary] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> NDArray[np.float64]: ...
 def mesh_coverage(
     mesh: _MeshLike,
     positions: ArrayLike,

@@ -225,6 +225,8 @@ fn a_lattice_of_a_cuboid_has_the_figures_of_a_lattice() {
     ] {
         assert!((mean(&found, key) - expected).abs() < 1e-8, "{key}: {found}");
     }
+    // All power is at 8 of the 7 to 11 waves.
+    assert!((mean(&found, "axis_power") - 512.0 / 5.0).abs() < 1e-5, "{found}");
     assert_eq!(found["domain"]["boundary"], "periodic");
     let open = json(&workshop, &[&cuboid[..], &["--radius", "0.8", "--bounded"]].concat());
     // One in the middle of each cube of the lattice, and one that spreads along the three upper faces, .75 from it.

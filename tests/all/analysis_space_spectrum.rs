@@ -206,7 +206,7 @@ fn a_lattice_has_peaks_of_power_n_on_the_dual_lattice_and_nothing_else() {
 fn slabs_show_on_their_axis_alone() {
     let domain = Domain::unit(Boundary::Periodic);
     let mut points = random_points(&domain, 20_000, 8);
-    points.retain(|point| (point[2] * 20.0) as usize % 2 == 0);
+    points.retain(|point| ((point[2] * 20.0) as usize).is_multiple_of(2));
     let [x, y, z] = [0, 1, 2].map(|axis| on_axis(&domain, &points, axis, 40)[9]);
     let slabs = points.len() as f64 * (2.0 / PI).powi(2);
     assert!((z / slabs - 1.0).abs() < 0.1 && x < 15.0 && y < 15.0, "{x} {y} {z}, {slabs}");

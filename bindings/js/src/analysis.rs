@@ -3,7 +3,7 @@
 use azulejo::analysis::coverage::{
     coverage_2d, coverage_3d, covering_radius_2d, surface_coverage, surface_covering_radius, surface_uncovered_fraction,
 };
-use azulejo::analysis::distribution::radial_distribution;
+use azulejo::analysis::distribution::{radial_distribution, radial_distribution_3d};
 use azulejo::analysis::figures::{Figures, figures_2d};
 use azulejo::analysis::space::figures_3d;
 use azulejo::analysis::spacing::{
@@ -163,6 +163,26 @@ pub unsafe extern "C" fn azulejo_space_measure(
             figures.conflicts as f64,
             gaps as f64,
         ]))
+    })
+}
+
+/// The radial distribution function of a set of a cuboid.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_radial_distribution(
+    cuboid: &Cuboid,
+    reach: f64,
+    bins: usize,
+    points: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context, progress| {
+        let found = radial_distribution_3d(context, &cuboid.domain(), points, reach, bins, progress)?;
+        Ok(Answer::default().and(found.density()))
     })
 }
 

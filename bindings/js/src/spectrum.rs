@@ -1,9 +1,10 @@
-//! Spectra of sets in the plane, and what takes their place on meshes.
+//! Spectra of sets in the plane and in space, and what takes their place on meshes.
 
 use azulejo::analysis::differential::{Differences, surface_differences};
-use azulejo::analysis::spectrum::{Periodogram, sparse_periodogram};
+use azulejo::analysis::spectrum::{Annulus, Periodogram, axis_power, periodogram_3d, sparse_periodogram};
 use azulejo::{Error, Result};
 
+use crate::analysis::Cuboid;
 use crate::answer::{Answer, call};
 use crate::domain;
 use crate::memory::rows;
@@ -74,10 +75,54 @@ pub extern "C" fn azulejo_spectrum_power(spectrum: &Periodogram) -> i32 {
 /// The frequency, power, anisotropy and number of frequencies of each annulus.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_spectrum_radial(spectrum: &Periodogram, width: f64) -> i32 {
-    call(|_, _| {
-        let annuli = spectrum.radial(width)?;
-        let annuli = annuli.iter().flat_map(|ring| [ring.frequency, ring.power, ring.anisotropy, ring.count as f64]);
-        Ok(Answer::default().and(annuli.collect::<Vec<f64>>()))
+    call(|_, _| Ok(Answer::default().and(numbers(&spectrum.radial(width)?))))
+}
+
+fn numbers(annuli: &[Annulus]) -> Vec<f64> {
+    annuli.iter().flat_map(|ring| [ring.frequency, ring.power, ring.anisotropy, ring.count as f64]).collect()
+}
+
+/// The frequency, power, anisotropy and number of frequencies of each shell of the spectrum of a set of a cuboid.
+///
+/// # Safety
+/// `points` is valid for reads of `count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_spectrum(
+    cuboid: &Cuboid,
+    frequency_reach: f64,
+    frequency_stride: usize,
+    width: f64,
+    points: *const [f32; 3],
+    count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, count) };
+    call(|context, progress| {
+        if !(width > 0.0 && width.is_finite()) {
+            let reason = format!("{width} is not a positive finite number");
+            return Err(Error::InvalidArgument { argument: "width", reason });
+        }
+        let spectrum = periodogram_3d(context, &cuboid.domain(), points, frequency_reach, frequency_stride, progress)?;
+        Ok(Answer::default().and(numbers(&spectrum.radial(width)?)))
+    })
+}
+
+/// The power of a set of a cuboid on an axis of frequencies.
+///
+/// # Safety
+/// `points` is valid for reads of `point_count` points.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_space_axis_power(
+    cuboid: &Cuboid,
+    axis: usize,
+    count: usize,
+    points: *const [f32; 3],
+    point_count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let points = unsafe { rows(points, point_count) };
+    call(|context, progress| {
+        Ok(Answer::default().and(axis_power(context, &cuboid.domain(), points, axis, count, progress)?))
     })
 }
 

@@ -132,6 +132,36 @@ test("figures and gaps of cuboids", () => {
     assert.throws(() => azulejo.spaceCoverage(positions, 0), /^Error: radius: /);
 });
 
+test("spectra and distributions of cuboids are those of naive sums", () => {
+    const { positions } = azulejo.volumeSample({ radius: 0.2, seed: 4 });
+    const count = positions.length / 3;
+    const power = (...waves) => {
+        const turn = (i) => 2 * Math.PI * waves.reduce((sum, k, axis) => sum + k * positions[3 * i + axis], 0);
+        const turns = Array.from({ length: count }, (_, i) => turn(i));
+        const sum = (of) => turns.reduce((sum, turn) => sum + of(turn), 0);
+        return (sum(Math.cos) ** 2 + sum(Math.sin) ** 2) / count;
+    };
+    for (const axis of [0, 1, 2]) {
+        const waves = (k) => [0, 1, 2].map((other) => (other === axis ? k : 0));
+        azulejo.spaceAxisPower(positions, axis, 12).forEach((found, i) => near(found, power(...waves(i + 1)), 1e-6));
+    }
+    const [shell] = azulejo.spaceSpectrum(positions, 2.1 / Math.cbrt(count), { width: 1 });
+    const along = [-2, -1, 0, 1, 2];
+    const all = along.flatMap((x) => along.flatMap((y) => along.map((z) => [x, y, z])));
+    const inside = all.filter((waves) => Math.hypot(...waves) <= 2 && Math.hypot(...waves) > 0);
+    assert.equal(2 * shell.count, inside.length);
+    near(shell.power, mean(inside.map((waves) => power(...waves))), 1e-5);
+    const density = azulejo.spaceRadialDistribution(positions, 1.5, 15);
+    const rho = azulejo.spaceMeasure(positions).rho;
+    density.forEach((found, bin) => assert.equal(found > 0, bin + 1 > 10 * rho));
+    throws(() => azulejo.spaceSpectrum(positions, 0), "frequencyReach");
+    throws(() => azulejo.spaceSpectrum(positions, 1, { frequencyStride: 0 }), "frequencyStride");
+    throws(() => azulejo.spaceSpectrum(positions, 1, { width: 0 }), "width");
+    throws(() => azulejo.spaceAxisPower(positions, 3, 1), "axis");
+    throws(() => azulejo.spaceAxisPower(positions, 0, 0), "count");
+    throws(() => azulejo.spaceRadialDistribution(positions, 9, 1), "reach");
+});
+
 test("spectra are those of naive Fourier sums", () => {
     const sets = [1, 2].map((seed) => azulejo.kdrtSample({ count: 300, seed }).positions);
     const power = (positions, x, y) => {

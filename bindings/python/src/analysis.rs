@@ -1,7 +1,7 @@
 //! Measures of any point set.
 
 use azulejo_core::analysis::coverage::{self, Coverage};
-use azulejo_core::analysis::distribution::radial_distribution;
+use azulejo_core::analysis::distribution::{radial_distribution, radial_distribution_3d};
 use azulejo_core::analysis::figures::{Figures, figures_2d};
 use azulejo_core::analysis::space::{SpaceFigures, figures_3d};
 use azulejo_core::analysis::spacing::{self, nearest_distances_2d, nearest_histogram_2d, spacing_2d};
@@ -450,6 +450,36 @@ pub(crate) fn plane_radial_distribution(
     let bins = natural("bins", bins)?;
     let distribution = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
         radial_distribution(context, domain, points, reach, bins, progress)
+    })?;
+    Ok(line(py, distribution.density()))
+}
+
+/// The radial distribution function of points of a cuboid, in units of packed_distance.
+///
+/// positions: at least 2 points.
+/// reach: where the last bin ends, at most half of the shortest side of the cuboid.
+/// bins: their number, 1 to 65536. The others are those of space_coverage.
+///
+/// Returns float64, shape (bins,).
+#[pyfunction]
+#[pyo3(signature = (
+    positions, reach, bins, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
+))]
+pub(crate) fn space_radial_distribution(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::reach)] reach: f64,
+    #[pyo3(from_py_with = whole::bins)] bins: i128,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyArray1<f64>>> {
+    let set = MeasuredSet::in_space(positions, domain_min, domain_max, boundary)?;
+    let bins = natural("bins", bins)?;
+    let distribution = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        radial_distribution_3d(context, domain, points, reach, bins, progress)
     })?;
     Ok(line(py, distribution.density()))
 }

@@ -103,9 +103,9 @@ macro_rules! arguments {
 
 // For `from_py_with`: a function for each argument, which knows its name.
 arguments! {
-    real: f64 = named => factor highest leaf_size radius reach sigma tolerance width;
+    real: f64 = named => factor frequency_reach highest leaf_size radius reach sigma tolerance width;
     amount: f64 = or_zero => count radius;
-    whole: i128 = named => bins channels count depth frequency_stride height iterations levels max_iterations probes seed size threads width;
+    whole: i128 = named => axis bins channels count depth frequency_stride height iterations levels max_iterations probes seed size threads width;
     number: i128 = or_zero => count;
     truth: bool = named => maximal;
     maybe_real: Option<f64> = named_or_none => attraction_radius coarsest conflict_radius cosine decay quotient radius step tolerance;

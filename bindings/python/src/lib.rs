@@ -54,7 +54,7 @@ mod azulejo {
     use crate::analysis::{
         CoverageReport, PlaneReport, SpaceReport, mesh_coverage, mesh_uncovered_fraction, plane_coverage,
         plane_covering_radius, plane_measure, plane_nearest_histogram, plane_radial_distribution,
-        plane_smallest_distance, space_coverage, space_measure, space_smallest_distance,
+        plane_smallest_distance, space_coverage, space_measure, space_radial_distribution, space_smallest_distance,
     };
     #[pymodule_export]
     use crate::classes::classes_radii;
@@ -89,7 +89,7 @@ mod azulejo {
     #[pymodule_export]
     use crate::remesh::{DcrRemeshReport, dcr_remesh};
     #[pymodule_export]
-    use crate::spectrum::{Differences, Spectrum, SpectrumReport};
+    use crate::spectrum::{Differences, Spectrum, SpectrumReport, space_axis_power, space_spectrum};
     #[pymodule_export]
     use crate::stream::kdrt_stream;
     #[pymodule_export]

@@ -1,14 +1,14 @@
-//! Spectra of sets in the plane, and what takes their place on meshes.
+//! Spectra of sets in the plane and in space, and what takes their place on meshes.
 
 use azulejo_core::Error;
 use azulejo_core::analysis::differential::{self, surface_differences};
-use azulejo_core::analysis::spectrum::{Annulus, Periodogram, sparse_periodogram};
+use azulejo_core::analysis::spectrum::{Annulus, Periodogram, axis_power, periodogram_3d, sparse_periodogram};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::analysis::PlaneSet;
+use crate::analysis::{MeasuredSet, PlaneSet};
 use crate::argument::{callable, maybe_pair, maybe_triple, natural, real, whole};
-use crate::array::{Array, line};
+use crate::array::{Array, line, table};
 use crate::error::{invalid, raised, raised_as};
 use crate::frame::Positions;
 use crate::mesh::Mesh;
@@ -102,8 +102,7 @@ impl Spectrum {
     /// Returns float64, shape (a, 4).
     #[pyo3(signature = (width=0.05))]
     fn radial(&self, py: Python<'_>, #[pyo3(from_py_with = real::width)] width: f64) -> PyResult<Py<PyArray2<f64>>> {
-        let row = |Annulus { count, frequency, power, anisotropy }| [frequency, power, anisotropy, count as f64];
-        crate::array::table(py, self.periodogram.radial(width).map_err(raised)?.into_iter().map(row).collect())
+        curves(py, self.periodogram.radial(width).map_err(raised)?)
     }
 
     /// Measures the spectrum.
@@ -127,6 +126,77 @@ impl Spectrum {
             peak_frequency: peak.map_or([0.0; 2], |peak| peak.frequency),
         })
     }
+}
+
+fn curves(py: Python<'_>, annuli: Vec<Annulus>) -> PyResult<Py<PyArray2<f64>>> {
+    let row = |Annulus { count, frequency, power, anisotropy }| [frequency, power, anisotropy, count as f64];
+    table(py, annuli.into_iter().map(row).collect())
+}
+
+/// The radial curves of the power spectrum of points of a cuboid: frequency in units of cbrt(count / volume), mean power,
+/// anisotropy, and the number of frequencies in each shell.
+///
+/// frequency_reach: the largest frequency, above 0. For each point there are 8 * (frequency_reach / frequency_stride)**3
+/// frequencies, which take 25 bytes each.
+/// frequency_stride: 1 takes all frequencies; k, up to 4096, every k-th along the axes.
+/// width: of a shell, above 0, in units of cbrt(count / volume). The others are those of space_coverage.
+///
+/// Returns float64, shape (a, 4).
+#[pyfunction]
+#[pyo3(signature = (
+    positions, frequency_reach, frequency_stride=1, *, width=0.05, domain_min=None, domain_max=None, boundary=None,
+    threads=0, progress=None
+))]
+pub(crate) fn space_spectrum(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = real::frequency_reach)] frequency_reach: f64,
+    #[pyo3(from_py_with = whole::frequency_stride)] frequency_stride: i128,
+    #[pyo3(from_py_with = real::width)] width: f64,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyArray2<f64>>> {
+    let set = MeasuredSet::in_space(positions, domain_min, domain_max, boundary)?;
+    let stride = natural("frequency_stride", frequency_stride)?;
+    if !(width > 0.0 && width.is_finite()) {
+        return Err(invalid("width", format!("{width} is not a positive finite number")));
+    }
+    let periodogram = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        periodogram_3d(context, domain, points, frequency_reach, stride, progress)
+    })?;
+    curves(py, periodogram.radial(width).map_err(raised)?)
+}
+
+/// The power of points of a cuboid on an axis of frequencies, 1 for a Poisson process: at 1, 2, ... count waves along a side
+/// of the cuboid. Planes across the axis, such as faces of blocks, show here and not in the radial mean.
+///
+/// axis: 0 to 2. count: 1 to 65536. The others are those of space_coverage.
+///
+/// Returns float64, shape (count,).
+#[pyfunction]
+#[pyo3(signature = (
+    positions, axis, count, *, domain_min=None, domain_max=None, boundary=None, threads=0, progress=None
+))]
+pub(crate) fn space_axis_power(
+    py: Python<'_>,
+    positions: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = whole::axis)] axis: i128,
+    #[pyo3(from_py_with = whole::count)] count: i128,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: Option<&str>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyArray1<f64>>> {
+    let set = MeasuredSet::in_space(positions, domain_min, domain_max, boundary)?;
+    let (axis, count) = (natural("axis", axis)?, natural("count", count)?);
+    let power = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        axis_power(context, domain, points, axis, count, progress)
+    })?;
+    Ok(line(py, power))
 }
 
 fn unless_too_small(figure: Result<f64, Error>) -> PyResult<Option<f64>> {

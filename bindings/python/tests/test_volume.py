@@ -160,6 +160,35 @@ def test_measures_agree_with_numpy():
     assert bounded.covering_radius > 0.2 and bounded.gaps > 0
 
 
+def test_spectra_and_distributions_agree_with_numpy():
+    domain = dict(domain_min=(-1, 0, 5), domain_max=(0, 1, 6.5))
+    points = azulejo.volume_sample(0.2, **domain, seed=3)
+    turns = (points.positions.astype(float) - [-1, 0, 5]) / [1, 1, 1.5]
+    count = len(turns)
+
+    def power(*waves):
+        return np.abs(np.exp(-2j * np.pi * (turns @ waves)).sum()) ** 2 / count
+
+    for axis in range(3):
+        waves = np.eye(3)[axis]
+        expected = [power(*(k * waves)) for k in range(1, 21)]
+        np.testing.assert_allclose(azulejo.space_axis_power(points, axis, 20), expected, rtol=1e-9, atol=1e-9)
+    steps = 1 / (np.array([1, 1, 1.5]) * (count / 1.5) ** (1 / 3))
+    grid = np.stack(np.meshgrid(*[np.arange(-12, 13)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    lengths = np.linalg.norm(grid * steps, axis=1)
+    for row in azulejo.space_spectrum(points, 0.9, width=0.3):
+        inside = grid[(lengths // 0.3 == row[0] // 0.3) & (lengths > 0) & (lengths <= 0.9)]
+        assert len(inside) == 2 * row[3]
+        assert np.mean([power(*waves) for waves in inside]) == pytest.approx(row[1], rel=1e-5)
+    unit = (2**0.5 * 1.5 / count) ** (1 / 3)
+    density = azulejo.space_radial_distribution(points.positions, 1.9, 20, **domain)
+    offsets = np.abs(turns[:, None] - turns[None])
+    distances = np.linalg.norm(np.minimum(offsets, 1 - offsets) * [1, 1, 1.5], axis=2)[~np.eye(count, dtype=bool)]
+    pairs, edges = np.histogram(distances / unit, 20, (0, 1.9))
+    shells = 4 / 3 * np.pi * np.diff((edges * unit) ** 3) / 1.5 * count * (count - 1)
+    np.testing.assert_allclose(density, pairs / shells, rtol=1e-9)
+
+
 def test_relaxed_points_are_far_from_each_other():
     start = np.random.default_rng(5).random((400, 3), np.float32)
     relaxed = azulejo.volume_relax(start, boundary="periodic")

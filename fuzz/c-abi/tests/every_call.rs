@@ -27,6 +27,7 @@ use azulejo_c::psp::*;
 use azulejo_c::psp_classes::*;
 use azulejo_c::psp_edit::*;
 use azulejo_c::region::*;
+use azulejo_c::spectrum::*;
 use azulejo_c::statistics::*;
 use azulejo_c::status::*;
 use azulejo_c::thin::*;

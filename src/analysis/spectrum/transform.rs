@@ -79,8 +79,9 @@ pub(super) fn bytes<const D: usize>(half: [usize; D], points: usize, threads: us
     let slice: f64 = side[..D - 1].iter().product();
     let lines: f64 = (0..D - 1).map(|axis| kept::<D>(half, axis) as f64).product();
     let in_work = (slices_of_task(slice as usize) * threads) as f64 * slice;
-    // The vectors of references to points grow in steps.
-    (in_work + lines * side[D - 1]) * size_of::<Complex<f64>>() as f64 + 16.0 * points as f64
+    // The vectors of references to points grow in steps. Each slice and line is a vector of its own.
+    let vectors = side[D - 1] + lines;
+    (in_work + lines * side[D - 1]) * size_of::<Complex<f64>>() as f64 + 16.0 * points as f64 + 48.0 * vectors
 }
 
 fn slices_of_task(slice: usize) -> usize {
@@ -119,8 +120,8 @@ pub(super) fn transform<T: Send, const D: usize>(
         let transformed = range.zip(lines).map(|(number, mut line)| {
             fft[last].process_with_scratch(&mut line, &mut scratch);
             let (mut frequency, mut number) = ([0; D], number);
-            for axis in 0..last {
-                frequency[axis] = (number % kept::<D>(half, axis)) as i64 + lowest::<D>(half, axis);
+            for (axis, along) in frequency[..last].iter_mut().enumerate() {
+                *along = (number % kept::<D>(half, axis)) as i64 + lowest::<D>(half, axis);
                 number /= kept::<D>(half, axis);
             }
             let along = half[last] as i64;
