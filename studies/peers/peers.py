@@ -164,6 +164,39 @@ def cloud_thinned(count, radius, path):
     return lambda: points[point_cloud_utils.downsample_point_cloud_poisson_disk(points, radius, random_seed=1)]
 
 
+def poisson_disk_cuboid(count, radius, mesh):
+    from scipy.stats import qmc
+
+    return qmc.PoissonDisk(3, radius=radius, rng=1).fill_space
+
+
+def random_cuboid(count):
+    """Ten times as many random points of the unit cube."""
+    return numpy.random.default_rng(1).random((10 * count, 3))
+
+
+def cuboid_thinned(count, radius, mesh):
+    import point_cloud_utils
+
+    points = random_cuboid(count)
+    return lambda: points[point_cloud_utils.downsample_point_cloud_poisson_disk(points, radius, random_seed=1)]
+
+
+def cuboid_voxels(count, radius, mesh):
+    import open3d
+
+    cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(random_cuboid(count)))
+    return lambda: numpy.asarray(cloud.voxel_down_sample(radius).points)
+
+
+def trimesh_inside(count, radius, mesh):
+    import trimesh
+
+    solid = trimesh.load(mesh)
+    numpy.random.seed(1)
+    return lambda: trimesh.sample.volume_mesh(solid, count)
+
+
 def memory(field):
     with open("/proc/self/status") as status:
         return next(int(line.split()[1]) / 1024 for line in status if line.startswith(field))

@@ -4,10 +4,10 @@ mod clouds;
 mod files;
 mod fill;
 mod given;
-mod memory;
+pub mod memory;
 mod plane;
 mod relaxation;
-mod row;
+pub mod row;
 mod starts;
 
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! Measures azulejo and writes the pages of `docs/` that show it, with their pictures.
 //!
 //! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr`, `classes`, `order`,
-//! `tiling`, `pixels`, `figures`, `gallery` and `goals` their pages.
+//! `tiling`, `pixels`, `figures`, `gallery`, `goals` and `volume` their pages.
 
 mod args;
 mod blue;
@@ -22,6 +22,7 @@ mod repeated;
 mod tiling;
 mod timing;
 mod verdict;
+mod volume;
 
 use std::process::ExitCode;
 
@@ -62,6 +63,8 @@ enum Study {
     Figures(figures::Figures),
     /// Measure the performance targets of version 0.2 that are on no other page; takes some minutes.
     Goals(goals::Goals),
+    /// Measure sets of cuboids and of the inside of meshes against their goals and beside others'; takes some minutes.
+    Volume(volume::Study),
     /// Show samplers side by side: points, spectra and a zone plate; takes some minutes.
     Gallery(gallery::Gallery),
 }
@@ -79,6 +82,7 @@ fn run(cli: &Cli) -> Result<()> {
         Study::Figures(figures) => figures.run(&context),
         Study::Gallery(gallery) => gallery.run(&context),
         Study::Goals(goals) => goals.run(&context),
+        Study::Volume(volume) => volume.run(&context),
     }
 }
 

@@ -11,6 +11,7 @@ mod judge;
 mod native;
 mod page;
 mod peers;
+mod space;
 mod timing;
 
 use std::error::Error;

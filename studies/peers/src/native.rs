@@ -13,6 +13,7 @@ use rand_06::SeedableRng as _;
 
 use crate::elimination;
 use crate::peers::DENSITY;
+use crate::space;
 use crate::timing::{Cost, timed};
 
 /// Runs the peer of this name, writes its samples as raw doubles and prints what it cost.
@@ -34,6 +35,11 @@ pub fn run(name: &str, count: usize, radius: f64, out: &Path, mesh: Option<&Path
         ("fast_poisson", _) => fast_poisson(radius),
         ("poisson_bridson", _) => poisson(radius, poisson::algorithm::Bridson),
         ("poisson_ebeida", _) => poisson(radius, poisson::algorithm::Ebeida),
+        ("fast_poisson_cuboid", _) => space::fast_poisson(radius),
+        ("fast_poisson_inside", Some(mesh)) => space::fast_poisson_inside(mesh, radius)?,
+        ("poisson_diskus", _) => space::poisson_diskus(radius),
+        ("poisson_bridson_cuboid", _) => space::poisson(radius, poisson::algorithm::Bridson),
+        ("poisson_ebeida_cuboid", _) => space::poisson(radius, poisson::algorithm::Ebeida),
         _ => return Err(format!("{name} is no peer, or needs a mesh").into()),
     };
     let mut file = BufWriter::new(File::create(out)?);
@@ -44,10 +50,10 @@ pub fn run(name: &str, count: usize, radius: f64, out: &Path, mesh: Option<&Path
     Ok(file.flush()?)
 }
 
-type Run = (Vec<f64>, Cost);
+pub type Run = (Vec<f64>, Cost);
 
 /// Coordinates, one after the other.
-fn flat<const N: usize, T: Into<f64> + Copy>((points, cost): (Vec<[T; N]>, Cost)) -> Run {
+pub fn flat<const N: usize, T: Into<f64> + Copy>((points, cost): (Vec<[T; N]>, Cost)) -> Run {
     (points.iter().flatten().map(|&value| value.into()).collect(), cost)
 }
 

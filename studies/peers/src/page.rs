@@ -26,7 +26,8 @@ over the same.
 const FEATURES: &str = "\
 What the tables do not show:
 
-* **Other dimensions**: fast_poisson, poisson and scipy sample boxes of three and more dimensions; azulejo has planes and surfaces.
+* **Other dimensions**: fast_poisson, poisson and scipy sample boxes of four and more dimensions; azulejo has planes, surfaces \
+and volumes.
 * **Pure Rust**: bluenoise, fast_poisson and poisson need no C library; azulejo needs Embree unless it is built without.
 * **Volumes, geodesic distance**: PyMeshLab and point-cloud-utils can measure along the surface; azulejo measures straight.
 * **What comes with it**: each of the Python packages is a library for much more than samples.

@@ -15,7 +15,7 @@ const STATUS: &str = "/proc/self/status";
 const RESET: &str = "/proc/self/clear_refs";
 
 /// Blocks above 64 KiB come from the system and go back to it: what was freed before a call does not serve it unseen.
-const ALLOCATOR: [(&str, &str); 2] = [("MALLOC_MMAP_THRESHOLD_", "65536"), ("MALLOC_TRIM_THRESHOLD_", "0")];
+pub const ALLOCATOR: [(&str, &str); 2] = [("MALLOC_MMAP_THRESHOLD_", "65536"), ("MALLOC_TRIM_THRESHOLD_", "0")];
 
 /// The MB that a fill of the dragon takes in a process of its own.
 pub fn in_a_process_of_its_own(dragon: &Dragon, count: f64) -> Result<f64> {
@@ -31,10 +31,16 @@ pub fn in_a_process_of_its_own(dragon: &Dragon, count: f64) -> Result<f64> {
 pub fn of_fill(Dragon { mesh, .. }: &Dragon, count: f64) -> Result<f64> {
     let context = Context::new(1)?;
     let options = Options::new(radius(mesh, count)).seed(1);
+    let (samples, bytes) = grown(|| Ok(psp::sample(&context, mesh, &options, None)?.0))?;
+    Ok((bytes - self::bytes(&samples) as f64) / 1e6)
+}
+
+/// The result of a call, and the bytes by which the resident set grew at most in it.
+pub fn grown<T>(call: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
     fs::write(RESET, "5").map_err(|source| Error::Io { path: RESET.into(), source })?;
     let before = resident("VmRSS")?;
-    let samples = psp::sample(&context, mesh, &options, None)?.0;
-    Ok((resident("VmHWM")? - before - bytes(&samples) as f64) / 1e6)
+    let result = call()?;
+    Ok((result, resident("VmHWM")? - before))
 }
 
 fn bytes(samples: &Points<3>) -> usize {
