@@ -38,7 +38,7 @@
  *   sets that exist, joined without seams         azulejo_kdrt_merge
  *   fewer points of a cloud that exists           azulejo_thin
  *   points that exist, more evenly spread         azulejo_dcr_relax, azulejo_dcr_surface_relax,
- *                                                 azulejo_volume_relax
+ *                                                 azulejo_volume_relax, azulejo_volume_relax_inside
  *   a mesh whose vertices are the samples         azulejo_dcr_remesh
  *   samples of a cuboid                           azulejo_volume_sample
  *   samples inside a mesh                         azulejo_volume_sample_inside
@@ -116,7 +116,7 @@
  *   and only if the call succeeds. A return value other than 0 cancels the call, which returns
  *   AZULEJO_ERROR_CANCELLED. The exceptions are azulejo_dcr_relax, azulejo_dcr_relax_classes,
  *   azulejo_dcr_relax_density, azulejo_dcr_relax_to_correlation, azulejo_dcr_surface_relax and
- *   azulejo_volume_relax: they succeed with the state after the last whole step, and
+ *   azulejo_volume_relax, _inside: they succeed with the state after the last whole step, and
  *   AZULEJO_STOPPED_CANCELLED in their report. Calls without a context, a psp or a plane handle do
  *   not report progress.
  *

@@ -884,6 +884,9 @@ using VolumeInsideOptions =
 /// See azulejo_volume_relax_options.
 using VolumeRelaxOptions =
     Options<azulejo_volume_relax_options, azulejo_volume_relax_options_init>;
+/// See azulejo_relax_inside_options; `fixed` must stay valid until the call returns.
+using VolumeRelaxInsideOptions =
+    Options<azulejo_relax_inside_options, azulejo_relax_inside_options_init>;
 /// See azulejo_mask_options; `width` and `height` have no defaults.
 using MaskOptions = Options<azulejo_mask_options, azulejo_mask_options_init>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
@@ -1862,6 +1865,17 @@ inline Status try_volume_relax(const Context &context, const VolumeRelaxOptions 
     });
 }
 
+/// Relaxes points inside a closed mesh; see azulejo_volume_relax_inside.
+inline Status try_volume_relax_inside(const Context &context, const Mesh &mesh,
+                                      const VolumeRelaxInsideOptions &options,
+                                      const SpacePoints &positions, Points &out,
+                                      VolumeRelaxReport *report = nullptr) {
+    return detail::make(out, [&](auto **points) {
+        return azulejo_volume_relax_inside(context.get(), mesh.get(), &options, positions.data(),
+                                           positions.size(), points, report);
+    });
+}
+
 /// Samples of a mesh in one call; see azulejo_psp_sample.
 inline Status try_psp_sample(const Context &context, const Mesh &mesh, const PspOptions &options,
                              Points &out, PspReport *report = nullptr) {
@@ -2572,6 +2586,15 @@ inline Points volume_relax(const Context &context, const VolumeRelaxOptions &opt
                            const SpacePoints &positions, VolumeRelaxReport *report = nullptr) {
     Points points;
     check(try_volume_relax(context, options, positions, points, report));
+    return points;
+}
+
+inline Points volume_relax_inside(const Context &context, const Mesh &mesh,
+                                  const VolumeRelaxInsideOptions &options,
+                                  const SpacePoints &positions,
+                                  VolumeRelaxReport *report = nullptr) {
+    Points points;
+    check(try_volume_relax_inside(context, mesh, options, positions, points, report));
     return points;
 }
 

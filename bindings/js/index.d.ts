@@ -684,6 +684,30 @@ export function volumeRelax(
     positions: Float32Array;
 };
 
+export interface VolumeRelaxInsideOptions extends Watched {
+    /** True for each point that stays where it is; default: none does. */
+    fixed?: ArrayLike<number | boolean> | null;
+    /** The largest number of steps; default 100. */
+    maxIterations?: number;
+    /** The motion at which the set has converged; default 0.001. */
+    tolerance?: number;
+    /** Used where points coincide only. Default 0. */
+    seed?: Seed;
+}
+
+/**
+ * Moves points inside a closed mesh, x y z each, until they are evenly spread. None leaves the inside; those that are fixed, such
+ * as the first `surfaceSamples` of volumeSampleInside, need only be in the box around the mesh.
+ */
+export function volumeRelaxInside(
+    mesh: Mesh,
+    positions: Numbers,
+    options?: VolumeRelaxInsideOptions,
+): Relaxation & {
+    /** x y z of each point, in the order in which they came. */
+    positions: Float32Array;
+};
+
 /** An image of densities, 0 or more and not 0 everywhere, in any unit, that is stretched over the domain. */
 export interface DensityImage {
     /** The pixels, row by row; the first row lies along the lower side of the domain. */

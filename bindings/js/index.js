@@ -100,6 +100,7 @@ const SCATTER = { ...DOMAIN, seed: 0 };
 // Of several classes, and to a density.
 const RELAX_CLASSES = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
 const RELAX_VOLUME = { ...CUBOID, maxIterations: 100, tolerance: 0.001, seed: 0 };
+const RELAX_INSIDE = { ...WATCHED, fixed: null, maxIterations: 100, tolerance: 0.001, seed: 0 };
 const CORRELATION = { ...DOMAIN, maxIterations: 100, tolerance: 0.005, seed: 0 };
 const IMAGE = { values: null, width: 0, height: 0 };
 const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
@@ -843,10 +844,24 @@ export function volumeRelax(positions, options) {
             place, whole("maxIterations", options.maxIterations), options.tolerance, seedOf(options),
             ...call.rows("positions", positions, Float32Array, 3),
         ];
-        const [relaxed, report] = call.make("volume_relax", args, Float32Array, Float64Array);
-        const [iterations, stopped, motion, smallestDistance, rho] = report;
-        return { positions: relaxed, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
+        return relaxationInSpace(call.make("volume_relax", args, Float32Array, Float64Array));
     }, options);
+}
+
+export function volumeRelaxInside(mesh, positions, options) {
+    options = withDefaults(RELAX_INSIDE, options);
+    return calling((call) => {
+        const fixed = options.fixed && Array.from(options.fixed, (isFixed) => (isFixed ? 1 : 0));
+        const args = [
+            meshPointer(mesh), whole("maxIterations", options.maxIterations), options.tolerance, seedOf(options),
+            ...call.rows("positions", positions, Float32Array, 3), ...call.rows("fixed", fixed, Uint8Array, 1),
+        ];
+        return relaxationInSpace(call.make("volume_relax_inside", args, Float32Array, Float64Array));
+    }, options);
+}
+
+function relaxationInSpace([positions, [iterations, stopped, motion, smallestDistance, rho]]) {
+    return { positions, iterations, stopped: STOPPED[stopped], motion, smallestDistance, rho };
 }
 
 // An image of densities: its values, and its size behind them.

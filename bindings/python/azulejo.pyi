@@ -751,6 +751,17 @@ def volume_relax(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def volume_relax_inside(
+    mesh: _MeshLike,
+    positions: ArrayLike,
+    *,
+    fixed: Optional[ArrayLike] = None,
+    max_iterations: SupportsIndex = 100,
+    tolerance: Optional[SupportsFloat] = None,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def dcr_remesh(
     mesh: _MeshLike,
     triangles: ArrayLike,

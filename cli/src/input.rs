@@ -30,3 +30,13 @@ pub fn mesh(path: &Path) -> Result<Mesh> {
     // Only regular files are loaded: a device may have no end.
     if path == Path::new("-") { Mesh::parse(path, &bytes(path)?) } else { Mesh::load(path) }
 }
+
+/// The mesh of a file whose inside is meant, which has no samples on triangles that would tell where it was moved from.
+pub fn mesh_at_origin(path: &Path) -> Result<Mesh> {
+    let mesh = mesh(path)?;
+    if mesh.origin() != [0.0; 3] {
+        let reason = "coordinates so far from the origin that floats would displace its samples: move it there first";
+        return Err(Error::Format { path: path.to_owned(), reason: reason.to_owned() });
+    }
+    Ok(mesh)
+}

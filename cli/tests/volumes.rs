@@ -205,6 +205,50 @@ fn volume_fills_the_inside_of_a_mesh() {
 }
 
 #[test]
+fn relax_keeps_points_inside_a_mesh() {
+    let workshop = Workshop::new();
+    workshop.write("solid.obj", format!("{SOLID}f 2 3 4\n"));
+    workshop.write("open.obj", SOLID);
+    workshop.succeed(&["volume", "--inside", "solid.obj", "--radius", "0.2", "--surface-first", "-o", "a.ply"]);
+    let mesh = Arc::new(Mesh::load(workshop.path("solid.obj")).unwrap());
+    let context = Context::new(1).unwrap();
+    let set = InsideOptions::new(0.2).surface(Surface::First);
+    let (points, report) = sample_inside(&context, &mesh, &set, None).unwrap();
+    let count = report.surface_samples.to_string();
+    for (arguments, is_fixed) in [(&[][..], false), (&["--fixed", &count][..], true)] {
+        let fixed: Vec<bool> = match is_fixed {
+            false => Vec::new(),
+            true => (0..points.len()).map(|index| index < report.surface_samples).collect(),
+        };
+        // Samples of the surface are inside only if they are fixed.
+        let inside: Vec<[f32; 3]> =
+            points.positions.iter().copied().filter(|&p| is_fixed || mesh.contains(p)).collect();
+        let rows_of = |points: &[[f32; 3]]| points.iter().map(|[x, y, z]| format!("{x},{y},{z}\n")).collect::<String>();
+        workshop.write("inside.csv", format!("x,y,z\n{}", rows_of(&inside)));
+        let all = ["relax", "inside.csv", "--inside", "solid.obj", "--iterations", "20", "--seed", "2", "-o", "b.ply"];
+        let said = workshop.succeed(&[&all[..], arguments].concat());
+        let options = volume::InsideOptions::default().max_iterations(20).seed(2).fixed(&fixed);
+        let (expected, done) = volume::relax_inside(&context, &mesh, &options, &inside, None).unwrap();
+        let (header, relaxed) = rows(&workshop, "b.ply", 3);
+        assert!(relaxed.iter().eq(expected.iter()));
+        assert!(header.contains("comment domain 0 0 0 2 2 2 bounded\n"), "{header}");
+        assert!(said.starts_with(&format!("b.ply: {} samples, {} steps, ", inside.len(), done.iterations)), "{said}");
+    }
+    workshop.write("outside.csv", "x,y,z\n0.5,0.5,0.5\n2,2,2\n");
+    for (arguments, code, text) in [
+        (&["a.ply", "--inside", "open.obj"][..], 1, "error: open.obj: is not closed: "),
+        (&["a.ply", "--inside", "none.obj"], 1, "error: none.obj: "),
+        (&["outside.csv", "--inside", "solid.obj"], 1, "error: outside.csv: point 1 is (2, 2, 2), outside the mesh"),
+        (&["outside.csv", "--inside", "solid.obj", "--fixed", "3"], 1, "error: outside.csv: has 2 points, fewer than"),
+        (&["a.ply", "--fixed", "3"], 2, "error: "),
+        (&["a.ply", "--inside", "solid.obj", "--mesh", "solid.obj"], 2, "error: "),
+    ] {
+        let said = workshop.refuse(&[&["relax", "-o", "c.ply"], arguments].concat(), code);
+        assert!(said.starts_with(text), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
 fn volume_refuses_what_it_cannot_make() {
     let workshop = Workshop::new();
     workshop.write("open.obj", SOLID);

@@ -43,6 +43,11 @@ const CASES: [Case; 14] = [
         facts: &["samples", "steps", "smallest_distance"],
     },
     Case {
+        arguments: &["relax", "within.csv", "--inside", "solid.obj", "--iterations", "2"],
+        output: "a.ply",
+        facts: &["samples", "steps", "smallest_distance"],
+    },
+    Case {
         arguments: &["merge", "piece.ply", "--radius", "0.2"],
         output: "a.ply",
         facts: &["samples", "radius", "kept", "eliminated", "inserted"],
@@ -64,6 +69,7 @@ fn workshop() -> Workshop {
         workshop.succeed(arguments);
     }
     workshop.write("solid.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    workshop.write("within.csv", "x,y,z\n0.5,0.5,0.5\n0.25,0.25,0.5\n");
     workshop
 }
 

@@ -181,7 +181,7 @@ typedef struct azulejo_volume_relax_options {
     void *progress_user; ///< Passed to the progress callback.
 } azulejo_volume_relax_options;
 
-/// The report of azulejo_volume_relax. d_fcc is the distance of neighbours in the densest packing,
+/// The report of both relaxations. d_fcc is the distance of neighbours in the densest packing,
 /// the face-centred cubic one, of as many points in the volume: (sqrt(2) volume / count)^(1/3).
 typedef struct azulejo_volume_relax_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
@@ -196,6 +196,19 @@ typedef struct azulejo_volume_relax_report {
     /// one; infinite for fewer than two points.
     double rho;
 } azulejo_volume_relax_report;
+
+/// Options of azulejo_volume_relax_inside; as those of azulejo_volume_relax.
+typedef struct azulejo_relax_inside_options {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t max_iterations; ///< Default 100.
+    uint64_t seed; ///< Default 0.
+    double tolerance; ///< Default -1: 0.001.
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
+    void *progress_user; ///< Passed to the progress callback.
+    /// One byte per point: any value but 0 keeps it where it is. Default NULL: none stays.
+    const uint8_t *fixed;
+    size_t fixed_count; ///< 0, the default, for none, or the number of points.
+} azulejo_relax_inside_options;
 
 /// Writes the defaults.
 azulejo_status azulejo_volume_relax_options_init(azulejo_volume_relax_options *options,
@@ -219,6 +232,22 @@ azulejo_status azulejo_volume_relax(const azulejo_context *context,
                                     size_t count,
                                     azulejo_points **out,
                                     azulejo_volume_relax_report *report);
+
+/// Writes the defaults.
+azulejo_status azulejo_relax_inside_options_init(azulejo_relax_inside_options *options,
+                                                 size_t struct_size);
+
+/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. No point
+/// leaves the inside (azulejo_mesh_contains). Clustered ones are not redistributed.
+/// - positions: inside; those that are fixed, such as the first of azulejo_volume_sample_inside,
+///   only in the box around the mesh.
+azulejo_status azulejo_volume_relax_inside(const azulejo_context *context,
+                                           const azulejo_mesh *mesh,
+                                           const azulejo_relax_inside_options *options,
+                                           const float *positions,
+                                           size_t count,
+                                           azulejo_points **out,
+                                           azulejo_volume_relax_report *report);
 
 #ifdef __cplusplus
 }

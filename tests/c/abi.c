@@ -349,6 +349,16 @@ FIELD(azulejo_volume_relax_options, tolerance, 72);
 FIELD(azulejo_volume_relax_options, progress, 80);
 FIELD(azulejo_volume_relax_options, progress_user, 88);
 
+SIZE(azulejo_relax_inside_options, 56);
+FIELD(azulejo_relax_inside_options, struct_size, 0);
+FIELD(azulejo_relax_inside_options, max_iterations, 4);
+FIELD(azulejo_relax_inside_options, seed, 8);
+FIELD(azulejo_relax_inside_options, tolerance, 16);
+FIELD(azulejo_relax_inside_options, progress, 24);
+FIELD(azulejo_relax_inside_options, progress_user, 32);
+FIELD(azulejo_relax_inside_options, fixed, 40);
+FIELD(azulejo_relax_inside_options, fixed_count, 48);
+
 SIZE(azulejo_volume_relax_report, 40);
 FIELD(azulejo_volume_relax_report, struct_size, 0);
 FIELD(azulejo_volume_relax_report, iterations, 4);
@@ -547,6 +557,11 @@ static void signatures(void) {
     azulejo_status (*relax_report_init)(azulejo_volume_relax_report *, size_t) = azulejo_volume_relax_report_init;
     azulejo_status (*volume_relax)(const azulejo_context *, const azulejo_volume_relax_options *, const float *, size_t,
                                    azulejo_points **, azulejo_volume_relax_report *) = azulejo_volume_relax;
+    azulejo_status (*relax_inside_init)(azulejo_relax_inside_options *, size_t) =
+        azulejo_relax_inside_options_init;
+    azulejo_status (*relax_inside)(const azulejo_context *, const azulejo_mesh *,
+                                   const azulejo_relax_inside_options *, const float *, size_t, azulejo_points **,
+                                   azulejo_volume_relax_report *) = azulejo_volume_relax_inside;
     uint32_t (*mesh_is_closed)(const azulejo_mesh *) = azulejo_mesh_is_closed;
     azulejo_status (*mesh_contains)(const azulejo_context *, const azulejo_mesh *, const float *, size_t, uint8_t *) =
         azulejo_mesh_contains;
@@ -597,7 +612,7 @@ static void signatures(void) {
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(space_coverage && space_measure && space_radial_distribution && space_spectrum && space_axis_power);
-    CHECK(relax_options_init && relax_report_init && volume_relax);
+    CHECK(relax_options_init && relax_report_init && volume_relax && relax_inside_init && relax_inside);
     CHECK(plane_measure && plane_nearest_histogram && plane_radial_distribution && spectrum_create);
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);

@@ -516,6 +516,14 @@ static azulejo_status relaxed_in_space(const azulejo_context *context, size_t co
     return freed(azulejo_volume_relax(context, &o, cloud, count, &points, NULL), points);
 }
 
+static azulejo_status relaxed_inside(const azulejo_context *context, size_t count) {
+    azulejo_relax_inside_options o;
+    azulejo_points *points = NULL;
+    ACCEPTED(azulejo_relax_inside_options_init(&o, sizeof o));
+    o.max_iterations = 2;
+    return freed(azulejo_volume_relax_inside(context, cube, &o, cloud, count, &points, NULL), points);
+}
+
 /* The triangles are those of the cube in turn. */
 static azulejo_status relaxed_on_mesh(const azulejo_context *context, size_t count) {
     static uint32_t triangles[MOST];
@@ -639,6 +647,7 @@ static const struct {
     {"relax, density, bounded", relaxed_density_bounded, 60000, MOST_ASKED},
     {"relax, mesh", relaxed_on_mesh, 100000, MOST_ASKED},
     {"relax, volume", relaxed_in_space, 250000, MOST_ASKED_UNEVENLY},
+    {"relax, inside a mesh", relaxed_inside, 250000, MOST_ASKED_UNEVENLY},
     {"mask, 64 channels", masked, 2097152, MOST_ASKED},
     {"thin, 3-D, a tenth", thinned, 500000, MOST_ASKED},
     {"thin, 3-D, all in order", thinned_all, 500000, MOST_ASKED},

@@ -220,6 +220,19 @@ static azulejo_status spatial(void *report) {
     return status;
 }
 
+static azulejo_status solid(void *report) {
+    const float inside[6] = {0.5f, 0.5f, 0.5f, 0.25f, 0.5f, 0.5f};
+    azulejo_relax_inside_options o;
+    azulejo_points *out = NULL;
+    azulejo_status status;
+    ACCEPTED(azulejo_relax_inside_options_init(&o, sizeof o));
+    o.max_iterations = 3;
+    status = azulejo_volume_relax_inside(context, cube, &o, inside, 2, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
 static const double low[2] = {0, 0}, high[2] = {1, 1};
 
 static azulejo_status plane(void *report) {
@@ -297,6 +310,7 @@ static const entry entries[] = {
     {graded, REPORT(dcr, 8, relative_covering_radius), 0, 0, 1},
     {surface, REPORT(dcr_surface, 8, rho), 0, 0, 1},
     {spatial, REPORT(volume_relax, 8, rho), 0, 0, 1},
+    {solid, REPORT(volume_relax, 8, rho), 0, 0, 1},
     {remeshed, REPORT(dcr_remesh, 16, mean_smallest_angle), 0, 0, 1},
     {plane, REPORT(plane, 16, beyond_4_sigma), 0, 0, 0},
     {plane_gaps, REPORT(coverage, 16, gaps), 0, 0, 0},

@@ -227,6 +227,57 @@ static void relaxation_refused(void) {
     CHECK(out == UNTOUCHED);
 }
 
+/* In the cube: those that are fixed stay, the others stay inside. */
+static void relaxes_inside(void) {
+    static const uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                       2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+    azulejo_relax_inside_options options;
+    azulejo_volume_relax_report report;
+    azulejo_mesh *cube = NULL, *open = NULL;
+    azulejo_points *points = NULL, *again = NULL, *out = UNTOUCHED;
+    float corners[24], positions[3 * RELAXED];
+    unsigned char fixed[RELAXED], inside[RELAXED];
+    const float *xyz;
+    uint64_t state = 9;
+    size_t i;
+    for (i = 0; i < 24; i++) corners[i] = (float)(i / 3 >> i % 3 & 1);
+    for (i = 0; i < 3 * RELAXED; i++) positions[i] = (float)(0.999 * random_number(&state));
+    for (i = 0; i < RELAXED; i++) fixed[i] = i % 5 == 0;
+    ACCEPTED(azulejo_mesh_create(corners, 8, 12, faces, 12, &cube));
+    ACCEPTED(azulejo_mesh_create(corners, 8, 12, faces, 11, &open));
+    ACCEPTED(azulejo_relax_inside_options_init(&options, sizeof options));
+    ACCEPTED(azulejo_volume_relax_report_init(&report, sizeof report));
+    options.fixed = fixed;
+    options.fixed_count = RELAXED;
+    ACCEPTED(azulejo_volume_relax_inside(one, cube, &options, positions, RELAXED, &points, &report));
+    ACCEPTED(azulejo_volume_relax_inside(three, cube, &options, positions, RELAXED, &again, NULL));
+    xyz = azulejo_points_positions(points);
+    CHECK(memcmp(xyz, azulejo_points_positions(again), sizeof positions) == 0);
+    ACCEPTED(azulejo_mesh_contains(one, cube, xyz, RELAXED, inside));
+    for (i = 0; i < RELAXED; i++) {
+        CHECK(inside[i]);
+        CHECK((memcmp(xyz + 3 * i, positions + 3 * i, 3 * sizeof *xyz) == 0) == fixed[i]);
+    }
+    CHECK(report.iterations == 100 && report.rho > 0);
+    azulejo_points_free(points);
+    azulejo_points_free(again);
+    REFUSED(INVALID, "mesh: is not closed",
+            azulejo_volume_relax_inside(one, open, &options, positions, RELAXED, &out, NULL));
+    REFUSED(INVALID, "fixed: has 600 entries for 2 points",
+            azulejo_volume_relax_inside(one, cube, &options, positions, 2, &out, NULL));
+    options.fixed = NULL;
+    REFUSED(INVALID, "fixed", azulejo_volume_relax_inside(one, cube, &options, positions, RELAXED, &out, NULL));
+    options.fixed_count = 0;
+    positions[4] = 1.5f;
+    REFUSED(INVALID, "positions: point 1", azulejo_volume_relax_inside(one, cube, &options, positions, 2, &out, NULL));
+    positions[4] = NAN;
+    REFUSED(INVALID, "positions: point 1", azulejo_volume_relax_inside(one, cube, &options, positions, 2, &out, NULL));
+    REFUSED(INVALID, "mesh", azulejo_volume_relax_inside(one, NULL, &options, positions, 1, &out, NULL));
+    CHECK(out == UNTOUCHED);
+    azulejo_mesh_free(cube);
+    azulejo_mesh_free(open);
+}
+
 int main(void) {
     one = make_context(1);
     three = make_context(3);
@@ -238,6 +289,7 @@ int main(void) {
     relaxes(AZULEJO_BOUNDARY_PERIODIC);
     relaxes(AZULEJO_BOUNDARY_BOUNDED);
     relaxation_refused();
+    relaxes_inside();
     azulejo_context_free(one);
     azulejo_context_free(three);
     return finish();

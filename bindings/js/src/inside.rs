@@ -1,9 +1,12 @@
-//! Sets of the inside of meshes.
+//! Sets of the inside of meshes, and their relaxation.
 
+use azulejo::dcr::volume as dcr;
 use azulejo::volume::{Amount, InsideOptions, Surface, sample_inside};
 
 use crate::answer::{Answer, call};
+use crate::memory::rows;
 use crate::mesh::Handle;
+use crate::volume::relaxation;
 use crate::{given, order};
 
 /// The options of a set, as JavaScript lays them out.
@@ -46,5 +49,31 @@ pub unsafe extern "C" fn azulejo_volume_sample_inside(
         let (samples, report) = sample_inside(context, &mesh.0, &options, progress)?;
         let report = vec![report.radius, report.covering_radius, report.depth, report.surface_samples as f64];
         Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))
+    })
+}
+
+/// The relaxed points; the number of iterations, the reason for stopping, motion, smallest distance and rho.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_relax_inside(
+    mesh: &Handle,
+    max_iterations: u32,
+    tolerance: f64,
+    seed: u64,
+    points: *const [f32; 3],
+    count: usize,
+    fixed: *const u8,
+    fixed_count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let (points, fixed) = unsafe { (rows(points, count), rows(fixed, fixed_count)) };
+    call(|context, progress| {
+        let fixed: Vec<bool> = fixed.iter().map(|&entry| entry != 0).collect();
+        let options =
+            dcr::InsideOptions::default().max_iterations(max_iterations).tolerance(tolerance).seed(seed).fixed(&fixed);
+        let (relaxed, report) = dcr::relax_inside(context, &mesh.0, &options, points, progress)?;
+        Ok(relaxation(relaxed, &report))
     })
 }

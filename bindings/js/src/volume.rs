@@ -70,8 +70,13 @@ pub unsafe extern "C" fn azulejo_volume_relax(
     call(|context, progress| {
         let options = dcr::Options::new(cuboid.domain()).max_iterations(max_iterations).tolerance(tolerance).seed(seed);
         let (relaxed, report) = dcr::relax(context, &options, points, progress)?;
-        let dcr::Report { motion, smallest_distance, rho, .. } = report;
-        let numbers = vec![report.iterations.into(), f64::from(report.stopped as u8), motion, smallest_distance, rho];
-        Ok(Answer::default().and(relaxed).and(numbers))
+        Ok(relaxation(relaxed, &report))
     })
+}
+
+/// Relaxed points and their report.
+pub fn relaxation(relaxed: Vec<[f32; 3]>, report: &dcr::Report) -> Answer {
+    let &dcr::Report { motion, smallest_distance, rho, .. } = report;
+    let numbers = vec![report.iterations.into(), f64::from(report.stopped as u8), motion, smallest_distance, rho];
+    Answer::default().and(relaxed).and(numbers)
 }

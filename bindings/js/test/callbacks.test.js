@@ -39,6 +39,7 @@ function watchable() {
     const plane = azulejo.kdrtSample({ radius: 0.03 }).positions;
     const space = azulejo.volumeSample({ radius: 0.15 }).positions;
     const set = azulejo.pspSample(mesh, { radius: 0.15 });
+    const inside = azulejo.volumeSampleInside(mesh, { radius: 0.1 }).positions;
     const density = { values: [1, 2, 3, 4], width: 2, height: 2 };
     const radii = [0.05, 0.04, 0.04, 0.05];
     const vertexRadii = new Float32Array(24 * 16).fill(0.15);
@@ -96,6 +97,7 @@ function watchable() {
             azulejo.dcrRelaxToCorrelation(plane, correlation, 12, { maxIterations: 10, ...options }),
         dcrSurfaceRelax: (options) => azulejo.dcrSurfaceRelax(mesh, set, options),
         volumeRelax: (options) => azulejo.volumeRelax(space, options),
+        volumeRelaxInside: (options) => azulejo.volumeRelaxInside(mesh, inside, options),
     };
 }
 

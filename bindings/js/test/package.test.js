@@ -410,6 +410,15 @@ test("sets inside meshes are conflict-free, maximal below the surface, and of cl
         const [low, high] = [[depth, depth, depth], [1 - depth, 1 - depth, 1 - depth]];
         assert.ok(coveringInSpace(positions, low, high, (d) => d) <= 0.15 + 1e-6);
     }
+    const { positions: start, surfaceSamples } = azulejo.volumeSampleInside(mesh, { radius: 0.15, surface: "first" });
+    const fixed = Array.from({ length: start.length / 3 }, (_, i) => i < surfaceSamples);
+    const relaxed = azulejo.volumeRelaxInside(mesh, start, { fixed, maxIterations: 30 });
+    assert.equal(relaxed.iterations, 30);
+    assert.deepEqual(relaxed.positions.subarray(0, 3 * surfaceSamples), start.subarray(0, 3 * surfaceSamples));
+    const moved = relaxed.positions.subarray(3 * surfaceSamples);
+    assert.ok(mesh.contains(moved).every((is) => is === 1) && moved.some((x, i) => x !== start[3 * surfaceSamples + i]));
+    assert.throws(() => azulejo.volumeRelaxInside(mesh, [0.5, 0.5, 2]), /positions: point 0 is .*, outside the mesh/);
+    assert.throws(() => azulejo.volumeRelaxInside(mesh, [0.5, 0.5, 0.5], { fixed: [1, 0] }), /fixed: has 2 entries/);
     const counted = azulejo.volumeSampleInside(mesh, { count: 150, order: "progressive", tolerance: 0.1 });
     assert.deepEqual([counted.positions.length, counted.ranks.length], [450, 150]);
     const open = new azulejo.Mesh(corners, triangles.slice(3));

@@ -32,7 +32,7 @@ mod watch;
 /// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_classes_with_density, psp_adaptive_sample,
 /// psp_adaptive_with_density, Psp. Space: volume_sample, volume_sample_inside. Relaxation: dcr_relax, dcr_relax_classes,
 /// dcr_relax_density, dcr_scatter, dcr_relax_to_correlation, dcr_correlation_of_power, dcr_surface_relax, volume_relax,
-/// dcr_remesh.
+/// volume_relax_inside, dcr_remesh.
 /// Clouds: thin. Pixels: mask_create, mask_dither. Analysis: plane_measure, plane_coverage, space_measure,
 /// space_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
 ///
@@ -84,7 +84,7 @@ mod azulejo {
     #[pymodule_export]
     use crate::relax::{
         DcrReport, dcr_correlation_of_power, dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_relax_to_correlation,
-        dcr_scatter, dcr_surface_relax, volume_relax,
+        dcr_scatter, dcr_surface_relax, volume_relax, volume_relax_inside,
     };
     #[pymodule_export]
     use crate::remesh::{DcrRemeshReport, dcr_remesh};

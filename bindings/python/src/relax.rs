@@ -12,7 +12,7 @@ use crate::analysis::{PlaneSet, SpaceSet};
 use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_triple, maybe_whole, natural, real, whole};
 use crate::array::{Array, line};
 use crate::error::{invalid, raised};
-use crate::frame::Frame;
+use crate::frame::{Frame, Positions};
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::report::report;
@@ -455,4 +455,48 @@ pub(crate) fn volume_relax(
     let (relaxed, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| volume::relax(context, &request, points, progress))?;
     Points::cuboid(py, relaxed.into(), &set.frame)?.with_report(py, DcrReport::from(report))
+}
+
+/// Moves points inside a closed mesh until they are evenly spread. None leaves the inside, which is decided exactly.
+///
+/// mesh: as in volume_sample_inside. An even number of triangles must share each edge.
+/// positions: the points, float32, shape (n, 3), inside the mesh; those that are fixed only in the box around it.
+/// fixed: bool, shape (n,): True for each point that stays where it is, such as the samples of the surface, which are the first
+///     ones of volume_sample_inside(surface="first"); default: none. Points that move keep their distance from them.
+/// max_iterations: the largest number of steps; the forces of a step depend on it.
+/// tolerance: the motion at which the set has converged; default 0.001.
+/// The others are those of dcr_relax.
+///
+/// Returns Points, in the order of positions, with the report DcrReport, whose unit d_max is the distance of neighbours in the
+/// densest packing, (sqrt(2) volume / n)^(1/3). Points that are clustered are not redistributed.
+#[pyfunction]
+#[pyo3(signature = (
+    mesh, positions, *, fixed=None, max_iterations=100, tolerance=None, seed=0, threads=0, progress=None
+))]
+pub(crate) fn volume_relax_inside(
+    py: Python<'_>,
+    #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
+    positions: &Bound<'_, PyAny>,
+    fixed: Option<&Bound<'_, PyAny>>,
+    #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
+    #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
+    let points = positions.get()?;
+    let fixed = fixed.map(|fixed| Ok::<_, PyErr>(Array::<bool>::read("fixed", fixed)?.line()?.to_vec())).transpose()?;
+    if let Some(fixed) = fixed.as_ref().filter(|fixed| fixed.len() != points.len()) {
+        return Err(invalid("fixed", &format!("has {} entries for {} points", fixed.len(), points.len())));
+    }
+    let fixed = fixed.unwrap_or_default();
+    let request = volume::InsideOptions::default()
+        .max_iterations(natural("max_iterations", max_iterations)?)
+        .seed(natural("seed", seed)?)
+        .fixed(&fixed);
+    let request = request.tolerance(tolerance.unwrap_or(request.tolerance));
+    let (relaxed, report) = Watch::new(py, threads, progress)?
+        .run(|context, progress| volume::relax_inside(context, &mesh.shared, &request, points, progress))?;
+    Points::solid(py, relaxed.into(), mesh.shared.origin())?.with_report(py, DcrReport::from(report))
 }

@@ -49,6 +49,34 @@ def test_counts_orders_and_given_samples():
     assert smallest_distance(np.concatenate([given, around.positions])) >= 0.1
 
 
+@pytest.mark.parametrize("surface", ["open", "first"])
+def test_relaxed_points_stay_inside(surface):
+    start = azulejo.volume_sample_inside(BOX, 0.15, surface=surface)
+    fixed = np.arange(len(start)) < start.report.surface_samples
+    points = azulejo.volume_relax_inside(BOX, start.positions, fixed=fixed, max_iterations=60, tolerance=0)
+    positions, report = points.positions, points.report
+    assert (positions[fixed] == start.positions[fixed]).all()
+    assert azulejo.Mesh(CORNERS, FACES).contains(positions[~fixed]).all()
+    assert (positions[~fixed] != start.positions[~fixed]).any(axis=1).mean() > 0.5
+    assert (report.iterations, report.stopped) == (60, "steps")
+    assert smallest_distance(positions) == pytest.approx(report.smallest_distance)
+    assert surface == "first" or report.smallest_distance > 0.16
+    again = azulejo.volume_relax_inside(BOX, start.positions, fixed=fixed, max_iterations=60, tolerance=0, threads=2)
+    assert (again.positions == positions).all()
+
+
+def test_relaxation_inside_refuses_what_it_cannot_do():
+    inside = [[0.5, 0.5, 0.5], [0.5, 0.5, 1.5]]
+    for mesh, positions, fixed, said in [
+        ((CORNERS, FACES[1:]), inside, None, "mesh: is not closed"),
+        (BOX, [[0.5, 0.5, 2.5]], None, r"positions: point 0 is \(0.5, 0.5, 2.5\), outside the mesh"),
+        (BOX, [[0.5, 0.5, np.nan]], None, "positions"),
+        (BOX, inside, [True], "fixed: has 1 entries for 2 points"),
+    ]:
+        with pytest.raises(ValueError, match=said):
+            azulejo.volume_relax_inside(mesh, np.float32(positions), fixed=None if fixed is None else np.array(fixed))
+
+
 def test_points_of_a_closed_mesh_are_inside():
     mesh = azulejo.Mesh(CORNERS, FACES)
     places = np.random.default_rng(3).uniform(-0.5, 2.5, (2000, 3)).astype(np.float32)

@@ -1,11 +1,11 @@
-//! `azulejo relax`: sets of the plane and of cuboids, and samples of meshes, relaxed.
+//! `azulejo relax`: sets of the plane, of cuboids and of the inside of meshes, and samples of meshes, relaxed.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use azulejo::dcr::{self, CorrelationOptions, Neighbourhood, Stopped, surface, volume};
 use azulejo::mesh::Mesh;
-use azulejo::{Context, Domain, Error, Points, Progress, Result};
+use azulejo::{Boundary, Context, Domain, Error, Points, Progress, Result};
 use clap::{Args, ValueEnum};
 
 use super::spectrum::Spectrum;
@@ -46,6 +46,15 @@ pub struct Relax {
         conflicts_with_all = ["domain", "mesh", "neighbourhood", "spectrum"]
     )]
     cuboid: Option<Vec<f64>>,
+    /// The closed mesh that the points are inside of and do not leave: OBJ, PLY, STL, OFF or GLB.
+    #[arg(
+        long, value_name = "MESH",
+        conflicts_with_all = ["cuboid", "domain", "bounded", "mesh", "neighbourhood", "spectrum"]
+    )]
+    inside: Option<PathBuf>,
+    /// The number of points that stay where they are, the first ones, as `azulejo volume --surface-first` says it.
+    #[arg(long, value_name = "COUNT", requires = "inside")]
+    fixed: Option<usize>,
     /// The neighbours that act on a point.
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
@@ -73,6 +82,9 @@ enum Neighbours {
 
 impl Relax {
     pub fn run(&self, context: &Context) -> Result<()> {
+        if let Some(mesh) = &self.inside {
+            return self.run_inside(context, mesh);
+        }
         match (&self.mesh, self.cuboid.as_deref().and_then(|corners| corners.try_into().ok())) {
             (Some(mesh), _) => self.run_on(context, mesh),
             (None, Some(corners)) => self.run_in_cuboid(context, &self.domain.cuboid(corners)),
@@ -92,6 +104,37 @@ impl Relax {
         let seconds = start.elapsed().as_secs_f64();
         let class_radii = &[done.smallest_distance];
         output.write_points(domain, &PointTable { class_radii, ..PointTable::of(&relaxed) })?;
+        report(&output.output, relaxed.len(), about(done.iterations, done.smallest_distance), seconds);
+        Ok(())
+    }
+
+    fn run_inside(&self, context: &Context, path: &Path) -> Result<()> {
+        let output = self.common.destination.open_points()?;
+        let mesh = input::mesh_at_origin(path)?;
+        let set = self.format.read_samples(&self.input, [0.0; 3])?;
+        self.refuse_classes(&set)?;
+        let fixed: Vec<bool> = match self.fixed {
+            Some(count) if count > set.positions.len() => {
+                return Err(self.refused(&format!("has {} points, fewer than are fixed", set.positions.len())));
+            }
+            Some(count) => (0..set.positions.len()).map(|index| index < count).collect(),
+            None => Vec::new(),
+        };
+        let mut options = volume::InsideOptions::default().seed(self.common.seed).fixed(&fixed);
+        options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
+        let start = Instant::now();
+        let relax =
+            |progress: &Progress| volume::relax_inside(context, &mesh, &options, &set.positions, Some(progress));
+        let (relaxed, done) = watched("relax", relax).map_err(|error| match error {
+            Error::InvalidArgument { argument: "mesh", reason } => Error::Format { path: path.to_owned(), reason },
+            other => blame(&self.input, other),
+        })?;
+        let seconds = start.elapsed().as_secs_f64();
+        let (low, high) = mesh.bounds();
+        let [min, max] = [low, high].map(|corner| corner.map(f64::from));
+        let class_radii = &[done.smallest_distance];
+        let table = PointTable { class_radii, ..PointTable::of(&relaxed) };
+        output.write_points(&Domain { min, max, boundary: Boundary::Bounded }, &table)?;
         report(&output.output, relaxed.len(), about(done.iterations, done.smallest_distance), seconds);
         Ok(())
     }

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use azulejo::mesh::Mesh;
 use azulejo::volume::{Amount, InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Error, Points, Result};
 use clap::Args;
@@ -13,6 +12,7 @@ use super::{Common, Sequence, count, covered, of_radius, report};
 use crate::domain::CuboidArgs;
 use crate::formats::points::PointTable;
 use crate::formats::{blame, read_given};
+use crate::input;
 use crate::output::Report;
 use crate::progress::watched;
 use crate::text::rounded;
@@ -118,12 +118,7 @@ impl Volume {
     }
 
     fn inside(&self, context: &Context, path: &Path, around: &Around<3>) -> Result<Made> {
-        let mesh = Arc::new(Mesh::load(path)?);
-        if mesh.origin() != [0.0; 3] {
-            let reason =
-                "coordinates so far from the origin that floats would displace its samples: move it there first";
-            return Err(Error::Format { path: path.to_owned(), reason: reason.to_owned() });
-        }
+        let mesh = Arc::new(input::mesh_at_origin(path)?);
         let options = InsideOptions::of(self.amount());
         let options = options
             .surface(if self.surface_first { Surface::First } else { Surface::Open })

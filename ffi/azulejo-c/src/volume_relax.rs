@@ -1,8 +1,8 @@
-//! Relaxation of points of a cuboid.
+//! Relaxation of points of a cuboid, and of points inside a mesh.
 
 use std::ffi::c_void;
 
-use azulejo_core::dcr::volume::{self, Options, Report};
+use azulejo_core::dcr::volume::{self, InsideOptions, Options, Report};
 
 use crate::boundary::{Out, check_reserved, rows};
 use crate::context::azulejo_context;
@@ -10,6 +10,7 @@ use crate::dcr::reason;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles;
+use crate::mesh::{azulejo_mesh, collect};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
@@ -64,7 +65,47 @@ impl azulejo_volume_relax_options {
     }
 }
 
-/// The report of azulejo_volume_relax. d_fcc is the distance of neighbours in the densest packing,
+/// Options of azulejo_volume_relax_inside; as those of azulejo_volume_relax.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct azulejo_relax_inside_options {
+    /// The size of the struct in bytes; set by the _init function.
+    pub struct_size: u32,
+    /// Default 100.
+    pub max_iterations: u32,
+    /// Default 0.
+    pub seed: u64,
+    /// Default -1: 0.001.
+    pub tolerance: f64,
+    /// Default NULL: the callback of the context, if it has one.
+    pub progress: azulejo_progress_fn,
+    /// Passed to the progress callback.
+    pub progress_user: *mut c_void,
+    /// One byte per point: any value but 0 keeps it where it is. Default NULL: none stays.
+    pub fixed: *const u8,
+    /// 0, the default, for none, or the number of points.
+    pub fixed_count: usize,
+}
+
+growing!(azulejo_relax_inside_options requires fixed_count {
+    max_iterations: 100,
+    seed: 0,
+    tolerance: -1.0,
+    progress: None,
+    progress_user: std::ptr::null_mut(),
+    fixed: std::ptr::null(),
+    fixed_count: 0,
+});
+
+impl azulejo_relax_inside_options {
+    fn request<'a>(&self, fixed: &'a [bool]) -> InsideOptions<'a> {
+        let options = InsideOptions::default();
+        let tolerance = if self.tolerance < 0.0 { options.tolerance } else { self.tolerance };
+        options.max_iterations(self.max_iterations).tolerance(tolerance).seed(self.seed).fixed(fixed)
+    }
+}
+
+/// The report of both relaxations. d_fcc is the distance of neighbours in the densest packing,
 /// the face-centred cubic one, of as many points in the volume: (sqrt(2) volume / count)^(1/3).
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -162,6 +203,56 @@ pub unsafe extern "C" fn azulejo_volume_relax(
     })
 }
 
+/// Writes the defaults.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_relax_inside_options_init(
+    options: *mut azulejo_relax_inside_options,
+    struct_size: usize,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    unsafe { growing::init("options", options, struct_size) }
+}
+
+/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. No point
+/// leaves the inside (azulejo_mesh_contains). Clustered ones are not redistributed.
+///
+/// positions: inside; those that are fixed, such as the first of azulejo_volume_sample_inside, only
+/// in the box around the mesh.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_relax_inside(
+    context: *const azulejo_context,
+    mesh: *const azulejo_mesh,
+    options: *const azulejo_relax_inside_options,
+    positions: *const f32,
+    count: usize,
+    out: *mut *mut azulejo_points,
+    report: *mut azulejo_volume_relax_report,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let (context, mesh) = unsafe { (handles::get("context", context)?, handles::get("mesh", mesh)?) };
+        // SAFETY: handed on from the caller.
+        let (options, report): (azulejo_relax_inside_options, _) =
+            unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: handed on from the caller.
+        let (points, fixed) = unsafe {
+            let points = rows::<f32, 3>("positions", positions, "count", count)?;
+            (points, rows::<u8, 1>("fixed", options.fixed, "fixed_count", options.fixed_count)?)
+        };
+        let fixed = collect("fixed", fixed.iter().map(|&[entry]| entry != 0))?;
+        let request = options.request(&fixed);
+        let watch = Watch::new(options.progress, options.progress_user);
+        let (relaxed, done) = context
+            .run(watch, |context, progress| volume::relax_inside(context, &mesh.shared, &request, points, progress))?;
+        if let Some(report) = report {
+            report.write(done);
+        }
+        Ok(azulejo_points::space(relaxed.into()))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use azulejo_core::{Boundary, Domain};
@@ -172,5 +263,6 @@ mod tests {
     fn the_defaults_are_those_of_the_core() {
         let request = azulejo_volume_relax_options::DEFAULT.request().unwrap();
         assert_eq!(request, Options::new(Domain::unit(Boundary::Periodic)));
+        assert_eq!(azulejo_relax_inside_options::DEFAULT.request(&[]), InsideOptions::default());
     }
 }

@@ -389,6 +389,14 @@ fn surfaces() {
         }));
         assert!(report.depth > 0.0 && report.samples > report.surface_samples && report.surface_samples > 10);
         assert_eq!(report.samples, count as u64);
+        let (inside, fixed) = ([0.25f32, 0.25, 0.25, 0.5, 0.25, 0.25], [1u8, 0]);
+        let mut options = defaults(azulejo_relax_inside_options_init);
+        (options.fixed, options.fixed_count) = (fixed.as_ptr(), 2);
+        let mut report = defaults(azulejo_volume_relax_report_init);
+        let count = read_and_free(made(|out| {
+            azulejo_volume_relax_inside(handle, solid.get(), &options, inside.as_ptr(), 2, out, &raw mut report)
+        }));
+        assert!(count == 2 && report.smallest_distance > 0.25);
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);
