@@ -579,7 +579,7 @@ fn points() {
         assert!(coverage.gaps > 0);
         let mut annulus = azulejo_annulus { frequency: 0.0, power: 0.0, anisotropy: 0.0, count: 0 };
         let size = size_of::<azulejo_annulus>();
-        let radial = |out: Out<_>| azulejo_space_spectrum(context.get(), &set, 1.0, 1, 2.0, &mut annulus, 1, size, out);
+        let radial = |out: Out<_>| azulejo_space_spectrum(context.get(), &set, 2.0, 1, 2.0, &mut annulus, 1, size, out);
         assert_eq!(value(radial), 1);
         assert!(annulus.count >= 2);
         let (mut power, mut density) = ([-1.0; 2], [-1.0; 2]);
