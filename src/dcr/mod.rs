@@ -9,8 +9,9 @@
 //! * [`Method::Thesis`]: the algorithm of the thesis with all of its settings.
 //!
 //! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] on triangle
-//! meshes, [`fn@volume::relax`] in cuboids, [`volume::relax_inside`] in meshes. [`relax_to_correlation`] gives sets another spectrum. `docs/dcr.md` has
-//! measurements of the results in the plane and on meshes: distances, coverage, spectra and angles.
+//! meshes, [`fn@volume::relax`] in cuboids, [`volume::relax_inside`] inside of meshes. [`relax_to_correlation`] gives sets
+//! another spectrum. `docs/dcr.md` has measurements of the results in the plane and on meshes: distances, coverage, spectra
+//! and angles.
 //!
 //! Convergence is judged by motion ([`Report::motion`]), unless [`Convergence::Variance`] asks for the thesis's own
 //! test.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use azulejo::dcr::volume::{Options as RelaxOptions, relax};
+use azulejo::dcr::volume::{InsideOptions as RelaxInsideOptions, Options as RelaxOptions, relax, relax_inside};
 use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Given, Order, Result};
 
@@ -75,6 +75,14 @@ fn insides(context: &Context, radius: f64, list: &mut List) -> Result<()> {
         ("count, given", count.given(given)),
     ] {
         list.samples(&format!("volume inside, {name}"), &sample_inside(context, &mesh, &options, None)?.0);
+    }
+    for (name, surface) in [("free", Surface::Open), ("around the surface", Surface::First)] {
+        let (start, of) = sample_inside(context, &mesh, &free.surface(surface), None)?;
+        let fixed: Vec<bool> = (0..start.len()).map(|index| index < of.surface_samples).collect();
+        let options = RelaxInsideOptions::default().max_iterations(40).seed(87).fixed(&fixed);
+        let (relaxed, report) = relax_inside(context, &mesh, &options, &start.positions, None)?;
+        list.samples(&format!("volume inside, relaxed {name}"), &relaxed.into());
+        list.numbers(&format!("volume inside, relaxed {name}: report"), &[report.motion, report.smallest_distance]);
     }
     Ok(())
 }

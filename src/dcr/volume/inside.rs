@@ -200,10 +200,9 @@ impl<'a> Inside<'a> {
             near.turn_along(step);
             return place;
         }
-        let wanted = *step;
-        for halving in 1..=HALVINGS {
-            let share = 0.5f32.powi(halving as i32);
-            let part = wanted.map(|x| share * x);
+        let mut part = *step;
+        for _ in 0..HALVINGS {
+            part = part.map(|x| 0.5 * x);
             let place = self.torus.moved(from, part, self.torus.per_spacing()).0;
             if self.holds(place) {
                 *step = part;

@@ -362,10 +362,7 @@ impl Work for Moves<'_> {
         let (mut strayed, mut number) = (0f32, 0);
         let points = places[first..].iter().zip(lists.iter()).zip(listed);
         for (((&at, list), from), (next, velocity)) in points.zip(next.iter_mut().zip(velocities)) {
-            let near = match &mut inside {
-                None => None,
-                Some((inside, near)) => Some((*inside, &mut near[number])),
-            };
+            let near = inside.as_mut().map(|(inside, near)| (*inside, &mut near[number]));
             number += 1;
             if near.as_ref().is_some_and(|(_, near)| near.is_fixed) {
                 *next = at;
