@@ -95,7 +95,10 @@ pub const INSIDES: [Peer; 2] = [
     peer("trimesh volume_mesh", "trimesh_inside", Language::Python, Asked::Count, FEWEST),
 ];
 
-/// The work of a peer: its processor seconds and samples.
+/// The seconds of processor time below which that of crates, which is counted in hundredths, is too coarse.
+const COARSE: f64 = 0.1;
+
+/// The work of a peer: its processor seconds, on the wall where there are few of them, and its samples.
 pub type Work = (f64, Vec<[f64; 3]>);
 
 impl Programs {
@@ -131,14 +134,14 @@ fn work(mut command: Command, program: &Path, out: &Path) -> Result<Work> {
     let output = command.output().map_err(failed(program))?;
     let printed = String::from_utf8_lossy(&output.stdout);
     let numbers: Vec<f64> = printed.lines().last().unwrap_or_default().split(' ').flat_map(str::parse).collect();
-    let [_, busy, _] = numbers[..] else {
+    let [seconds, busy, _] = numbers[..] else {
         let complaint = String::from_utf8_lossy(&output.stderr).lines().last().unwrap_or("no word").to_owned();
         return Err(failed(program)(std::io::Error::other(complaint)));
     };
     let bytes = fs::read(out).map_err(failed(out))?;
     fs::remove_file(out).map_err(failed(out))?;
     let numbers: Vec<f64> = bytes.as_chunks().0.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect();
-    Ok((busy, numbers.as_chunks().0.to_vec()))
+    Ok((if busy < COARSE { seconds } else { busy }, numbers.as_chunks().0.to_vec()))
 }
 
 /// The text on fluids that the script writes; `None` if no Python was given.

@@ -16,7 +16,8 @@ const INTRODUCTION: &str = "This page shows maximal Poisson-disk sets of cuboids
     others on the same tasks, in the same run.\n";
 
 const HOW: &str = "Times are those of processors, user and system together, on one thread, since others use the machine, \
-    too: they vary less than times on the wall, but still by what others do to caches and clocks. What is compared took turns.\n";
+    too: they vary less than times on the wall, but still by what others do to caches and clocks. Calls of others that took less than 0.1 s are \
+    timed on the wall. What is compared took turns.\n";
 
 const GOALS: &str = "*Measured* is the median of the rounds, and the *range* is theirs: a \
     goal is met where every round meets it, not met where none does, and otherwise not decided. Of densities, memory and \
