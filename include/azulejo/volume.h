@@ -72,8 +72,7 @@ azulejo_status azulejo_volume_report_init(azulejo_volume_report *report, size_t 
 ///
 /// With a `count`, in progressive order or around given samples see the options; around given
 /// samples the tolerance is 7 float spacings, in progressive order 9.
-/// - O(samples) time and memory. Source: M. S. Ebeida et al., A Simple Algorithm for Maximal
-///   Poisson-Disk Sampling in High Dimensions, 2012.
+/// - O(samples) time and memory. Source: Ebeida et al. 2012.
 azulejo_status azulejo_volume_sample(const azulejo_context *context,
                                      const azulejo_volume_options *options,
                                      azulejo_points **out,
@@ -137,8 +136,7 @@ azulejo_status azulejo_volume_inside_report_init(azulejo_volume_inside_report *r
 /// sample is outside (azulejo_mesh_contains), except those of the surface, which
 /// azulejo_psp_sample makes with the same radius and seed. The result has positions only. Count,
 /// order and given samples are as in azulejo_volume_sample.
-/// - O(samples) time and memory. What is made of the mesh, O(triangles * log triangles) the first
-///   time, is kept with it.
+/// - O(samples) time and memory, and O(triangles * log triangles) for the first call on a mesh.
 azulejo_status azulejo_volume_sample_inside(const azulejo_context *context,
                                             const azulejo_mesh *mesh,
                                             const azulejo_volume_inside_options *options,
@@ -167,12 +165,10 @@ typedef struct azulejo_volume_relax_options {
     uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
     double domain_min[3]; ///< The lower corner of the domain, x y z; default 0 0 0.
     double domain_max[3]; ///< The upper corner, as in azulejo_space_set; default 1 1 1.
-    /// The largest number of steps; default 100. 0 returns the points as they are. The forces of a
-    /// step depend on it.
+    /// The most steps; default 100. 0 returns the points as they are. Forces depend on it.
     uint32_t max_iterations;
     uint32_t reserved; ///< Must be 0.
-    /// Directions in which coincident points are separated, and the points onto which clustered
-    /// ones are redistributed; default 0.
+    /// The key by which coincident points are parted and clustered ones moved; default 0.
     uint64_t seed;
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects 0.001.
@@ -192,8 +188,7 @@ typedef struct azulejo_volume_relax_report {
     double motion;
     /// The smallest distance between two points; infinite for fewer than two.
     double smallest_distance;
-    /// The smallest distance in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed
-    /// one; infinite for fewer than two points.
+    /// The same in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed one.
     double rho;
 } azulejo_volume_relax_report;
 
@@ -224,8 +219,7 @@ azulejo_status azulejo_volume_relax_report_init(azulejo_volume_relax_report *rep
 /// before the first step. A periodic domain wraps, a bounded one has walls.
 /// - positions: the points, x y z each, in domain_min <= x < domain_max.
 /// - out: after the last whole step, in the same order; positions only.
-/// - O(count) time for each step, and O(count) memory. Source: the constraints of thesis chapter 4,
-///   in space.
+/// - O(count) time for each step, and O(count) memory. Source: thesis chapter 4, in space.
 azulejo_status azulejo_volume_relax(const azulejo_context *context,
                                     const azulejo_volume_relax_options *options,
                                     const float *positions,

@@ -156,8 +156,7 @@ impl azulejo_volume_inside_options {
 /// azulejo_psp_sample makes with the same radius and seed. The result has positions only. Count,
 /// order and given samples are as in azulejo_volume_sample.
 ///
-/// O(samples) time and memory. What is made of the mesh, O(triangles * log triangles) the first
-/// time, is kept with it.
+/// O(samples) time and memory, and O(triangles * log triangles) for the first call on a mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_sample_inside(
     context: *const azulejo_context,

@@ -150,8 +150,7 @@ impl azulejo_volume_options {
 /// With a `count`, in progressive order or around given samples see the options; around given
 /// samples the tolerance is 7 float spacings, in progressive order 9.
 ///
-/// O(samples) time and memory. Source: M. S. Ebeida et al., A Simple Algorithm for Maximal
-/// Poisson-Disk Sampling in High Dimensions, 2012.
+/// O(samples) time and memory. Source: Ebeida et al. 2012.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_sample(
     context: *const azulejo_context,

@@ -27,13 +27,11 @@ pub struct azulejo_volume_relax_options {
     pub domain_min: [f64; 3],
     /// The upper corner, as in azulejo_space_set; default 1 1 1.
     pub domain_max: [f64; 3],
-    /// The largest number of steps; default 100. 0 returns the points as they are. The forces of a
-    /// step depend on it.
+    /// The most steps; default 100. 0 returns the points as they are. Forces depend on it.
     pub max_iterations: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Directions in which coincident points are separated, and the points onto which clustered
-    /// ones are redistributed; default 0.
+    /// The key by which coincident points are parted and clustered ones moved; default 0.
     pub seed: u64,
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects 0.001.
@@ -122,8 +120,7 @@ pub struct azulejo_volume_relax_report {
     pub motion: f64,
     /// The smallest distance between two points; infinite for fewer than two.
     pub smallest_distance: f64,
-    /// The smallest distance in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed
-    /// one; infinite for fewer than two points.
+    /// The same in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed one.
     pub rho: f64,
 }
 
@@ -171,8 +168,7 @@ pub unsafe extern "C" fn azulejo_volume_relax_report_init(
 ///
 /// out: after the last whole step, in the same order; positions only.
 ///
-/// O(count) time for each step, and O(count) memory. Source: the constraints of thesis chapter 4,
-/// in space.
+/// O(count) time for each step, and O(count) memory. Source: thesis chapter 4, in space.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_relax(
     context: *const azulejo_context,
