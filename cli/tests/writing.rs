@@ -12,7 +12,7 @@ struct Case {
     facts: &'static [&'static str],
 }
 
-const CASES: [Case; 14] = [
+const CASES: [Case; 15] = [
     Case { arguments: &["plane", "--radius", "0.2"], output: "a.ply", facts: &["samples", "radius"] },
     Case { arguments: &["plane", "--count", "50"], output: "a.npy", facts: &["samples", "radius", "maximal"] },
     Case { arguments: &["plane", "--classes", "0.2,0.1"], output: "a.csv", facts: &["samples", "classes"] },

@@ -488,7 +488,7 @@ pub(crate) fn volume_relax_inside(
     let points = positions.get()?;
     let fixed = fixed.map(|fixed| Ok::<_, PyErr>(Array::<bool>::read("fixed", fixed)?.line()?.to_vec())).transpose()?;
     if let Some(fixed) = fixed.as_ref().filter(|fixed| fixed.len() != points.len()) {
-        return Err(invalid("fixed", &format!("has {} entries for {} points", fixed.len(), points.len())));
+        return Err(invalid("fixed", format!("has {} entries for {} points", fixed.len(), points.len())));
     }
     let fixed = fixed.unwrap_or_default();
     let request = volume::InsideOptions::default()

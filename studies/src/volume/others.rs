@@ -125,7 +125,7 @@ impl Programs {
     }
 }
 
-/// What a peer printed, last of all: seconds, processor seconds and megabytes; and its samples.
+/// The last line of a peer: seconds, processor seconds and megabytes; and its samples.
 fn work(mut command: Command, program: &Path, out: &Path) -> Result<Work> {
     let failed = |path: &Path| {
         let path = path.to_owned();

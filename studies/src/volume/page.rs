@@ -10,7 +10,7 @@ use super::picture::Slab;
 use super::tables::{Outcome, Row, Table};
 use crate::goals::row;
 
-/// What the page shows, in its first lines.
+/// The first lines of the page: its subject and its findings.
 const INTRODUCTION: &str = "This page shows maximal Poisson-disk sets of cuboids and of the inside of meshes, and relaxed \
     sets: what a sample takes, how dense sets are, whether any two samples conflict and what is left uncovered; beside packages of \
     others on the same tasks, in the same run.\n";
@@ -33,7 +33,7 @@ const COLUMNS: &str = "* *µs*: processor time of a sample, the least of all rou
     * *ρ*: the smallest distance over that of neighbours in the densest packing of as many samples; *cover*: the distance of \
     the worst place over the same. Those that are asked for a number promise no radius, and are judged by these.\n";
 
-/// What was not run, and why.
+/// The peers that were not run, and the reasons.
 const ELSEWHERE: &str = "* **Any dimension**: fast_poisson, poisson, poisson-diskus, tph_poisson and scipy also sample boxes of four and more \
     dimensions; azulejo does not.\n\
     * **Pure Rust**: fast_poisson, poisson and poisson-diskus need no C library; azulejo needs Embree unless it is built \
