@@ -106,6 +106,6 @@ mod tests {
         assert!(!open.is_closed());
         let closed = Closed::of(open).unwrap();
         assert!(closed.mesh.is_closed() && closed.holes >= 2, "{}", closed.holes);
-        assert_eq!(Closed::of(sphere).unwrap().holes, 0);
+        assert_eq!(Closed::of(closed.mesh).unwrap().holes, 0);
     }
 }
