@@ -154,6 +154,7 @@ test("spectra and distributions of cuboids are those of naive sums", () => {
     const density = azulejo.spaceRadialDistribution(positions, 1.5, 15);
     const rho = azulejo.spaceMeasure(positions).rho;
     density.forEach((found, bin) => assert.equal(found > 0, bin + 1 > 10 * rho));
+    const throws = (call, argument) => assert.throws(call, new RegExp(`^Error: ${argument}: `));
     throws(() => azulejo.spaceSpectrum(positions, 0), "frequencyReach");
     throws(() => azulejo.spaceSpectrum(positions, 1, { frequencyStride: 0 }), "frequencyStride");
     throws(() => azulejo.spaceSpectrum(positions, 1, { width: 0 }), "width");
