@@ -12,7 +12,7 @@ mod sides;
 mod tree;
 mod winding;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::check;
 use crate::error::Result;
@@ -31,6 +31,8 @@ pub struct Interior {
     /// None of a closed mesh.
     caps: Option<Caps>,
     bounds: [[f32; 3]; 2],
+    /// Measured when it is first asked for.
+    volume: OnceLock<f64>,
 }
 
 impl Interior {
@@ -47,7 +49,7 @@ impl Interior {
         let (low, high) = mesh.bounds();
         let (tree, _) = Tree::new(&triangles);
         let caps = (sides.odd_edges > 0).then(|| Caps::new(mesh, &sides.boundary));
-        Self { tree, caps, bounds: [low, high] }
+        Self { tree, caps, bounds: [low, high], volume: OnceLock::new() }
     }
 
     /// True if the mesh is closed, and points are decided without error: see [`Mesh::is_closed`].

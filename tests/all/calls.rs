@@ -22,7 +22,7 @@ use azulejo::analysis::distribution::{radial_distribution, radial_distribution_3
 use azulejo::analysis::figures::figures_2d;
 use azulejo::analysis::space::figures_3d;
 use azulejo::analysis::spacing::{nearest_distances_2d, rho, smallest_distance_2d, smallest_distance_3d};
-use azulejo::analysis::spectrum::{axis_power, periodogram, periodogram_3d, sparse_periodogram};
+use azulejo::analysis::spectrum::{axis_power, periodogram, periodogram_3d, radial_power_3d, sparse_periodogram};
 use azulejo::analysis::triangles::{delaunay_triangles, triangle_statistics};
 use azulejo::dcr::{self, CorrelationOptions, DelaunayOptions, Neighbourhood, PairCorrelation, Stopped};
 use azulejo::kdrt::{self, CountOptions, MergeOptions, Piece, Plane, Progressive};
@@ -781,6 +781,12 @@ const ANALYSIS: &[Call] = &[
             ("frequency_reach: ", |c, p| said(periodogram_3d(c, &CUBE, &IN_CUBE, 0.0, 1, p))),
             ("frequency_stride: ", |c, p| said(periodogram_3d(c, &CUBE, &IN_CUBE, 1.5, 0, p))),
         ],
+    },
+    Call {
+        name: "analysis::spectrum::radial_power_3d",
+        reports: 10,
+        run: |c, p| said(radial_power_3d(c, &CUBE, &IN_CUBE, 1.5, 1, 0.1, p)),
+        refused: &[("width: ", |c, p| said(radial_power_3d(c, &CUBE, &IN_CUBE, 1.5, 1, 0.0, p)))],
     },
     Call {
         name: "analysis::spectrum::axis_power",

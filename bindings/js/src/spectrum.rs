@@ -1,7 +1,7 @@
 //! Spectra of sets in the plane and in space, and what takes their place on meshes.
 
 use azulejo::analysis::differential::{Differences, surface_differences};
-use azulejo::analysis::spectrum::{Annulus, Periodogram, axis_power, periodogram_3d, sparse_periodogram};
+use azulejo::analysis::spectrum::{Annulus, Periodogram, axis_power, radial_power_3d, sparse_periodogram};
 use azulejo::{Error, Result};
 
 use crate::analysis::Cuboid;
@@ -98,12 +98,9 @@ pub unsafe extern "C" fn azulejo_space_spectrum(
     // SAFETY: guaranteed by the caller.
     let points = unsafe { rows(points, count) };
     call(|context, progress| {
-        if !(width > 0.0 && width.is_finite()) {
-            let reason = format!("{width} is not a positive finite number");
-            return Err(Error::InvalidArgument { argument: "width", reason });
-        }
-        let spectrum = periodogram_3d(context, &cuboid.domain(), points, frequency_reach, frequency_stride, progress)?;
-        Ok(Answer::default().and(numbers(&spectrum.radial(width)?)))
+        let domain = cuboid.domain();
+        let annuli = radial_power_3d(context, &domain, points, frequency_reach, frequency_stride, width, progress)?;
+        Ok(Answer::default().and(numbers(&annuli)))
     })
 }
 

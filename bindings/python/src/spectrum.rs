@@ -2,7 +2,7 @@
 
 use azulejo_core::Error;
 use azulejo_core::analysis::differential::{self, surface_differences};
-use azulejo_core::analysis::spectrum::{Annulus, Periodogram, axis_power, periodogram_3d, sparse_periodogram};
+use azulejo_core::analysis::spectrum::{Annulus, Periodogram, axis_power, radial_power_3d, sparse_periodogram};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -161,13 +161,10 @@ pub(crate) fn space_spectrum(
 ) -> PyResult<Py<PyArray2<f64>>> {
     let set = MeasuredSet::in_space(positions, domain_min, domain_max, boundary)?;
     let stride = natural("frequency_stride", frequency_stride)?;
-    if !(width > 0.0 && width.is_finite()) {
-        return Err(invalid("width", format!("{width} is not a positive finite number")));
-    }
-    let periodogram = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
-        periodogram_3d(context, domain, points, frequency_reach, stride, progress)
+    let annuli = set.run(Watch::new(py, threads, progress)?, |context, domain, points, progress| {
+        radial_power_3d(context, domain, points, frequency_reach, stride, width, progress)
     })?;
-    curves(py, periodogram.radial(width).map_err(raised)?)
+    curves(py, annuli)
 }
 
 /// The power of points of a cuboid on an axis of frequencies, 1 for a Poisson process: at 1, 2, ... count waves along a side

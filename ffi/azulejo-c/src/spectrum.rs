@@ -1,7 +1,7 @@
 //! Power spectra of sets of the plane and of cuboids.
 
 use azulejo_core::Error;
-use azulejo_core::analysis::spectrum::{Annulus, Periodogram, axis_power, periodogram_3d, sparse_periodogram};
+use azulejo_core::analysis::spectrum::{Annulus, Periodogram, axis_power, radial_power_3d, sparse_periodogram};
 
 use crate::boundary::{self, Out, array, check_pointer};
 use crate::context::azulejo_context;
@@ -296,22 +296,12 @@ pub unsafe extern "C" fn azulejo_space_spectrum(
         let annuli = unsafe { Annuli::new(annuli, capacity, annulus_size, out_count) }?;
         // SAFETY: handed on from the caller.
         let set = unsafe { SpaceSet::read(context, set) }?;
-        check_width(width)?;
         let stride = frequency_stride as usize;
-        let periodogram = set.run(|context, domain, points, progress| {
-            periodogram_3d(context, domain, points, frequency_reach, stride, progress)
-        })?;
-        annuli.write(periodogram.radial(width)?);
+        annuli.write(set.run(|context, domain, points, progress| {
+            radial_power_3d(context, domain, points, frequency_reach, stride, width, progress)
+        })?);
         Ok(())
     })
-}
-
-/// Refused before any work.
-fn check_width(width: f64) -> Result<(), Failure> {
-    if width > 0.0 && width.is_finite() {
-        return Ok(());
-    }
-    Err(Failure::invalid("width", format!("{width} is not a positive finite number")))
 }
 
 /// The power of points of a cuboid on an axis of frequencies, 1 for a Poisson process. Planes

@@ -157,6 +157,24 @@ pub fn periodogram_3d(
     Ok(Periodogram { size, frequency_step, reach, power })
 }
 
+/// The radial curves of [`periodogram_3d`] in shells of `width`, as [`Periodogram::radial`] gives them. The width is refused
+/// before any work.
+///
+/// # Errors
+/// Those of both.
+pub fn radial_power_3d(
+    context: &Context,
+    domain: &Domain<3>,
+    points: &[[f32; 3]],
+    reach: f64,
+    stride: usize,
+    width: f64,
+    progress: Option<&Progress>,
+) -> Result<Vec<Annulus>> {
+    check::positive("width", width)?;
+    periodogram_3d(context, domain, points, reach, stride, progress)?.radial(width)
+}
+
 /// The power of `points` of the plane or of a cuboid at 1, 2, ... `count` waves along one side of the domain: at frequencies
 /// on an axis, which are those of the points' coordinates along it. Exact and without a grid in the other directions, so that
 /// any number of points and of frequencies will do.

@@ -5,8 +5,8 @@
 //! * neighbours are all points within a radius (`lists.rs`), not Delaunay stars: to close holes, the conflict radius begins
 //!   large and falls, and in most steps farther points push a little too (`relaxation.rs`);
 //! * the boundary is a wall, without mirror images (`torus.rs`), or the surface of a mesh (`inside.rs`);
-//! * points of a cuboid that are clustered are redistributed before the first step, as on meshes (`dcr/clustering.rs`): there is no Fourier
-//!   transform.
+//! * points of a cuboid that are clustered are redistributed before the first step, as on meshes (`dcr/clustering.rs`): there is
+//!   no Fourier transform.
 //!
 //! The plane crystallises, space does not: random packings jam at .9526 of the densest distance, and sets end below that.
 
@@ -64,8 +64,8 @@ impl Options {
 
 setters!(Options { domain: Domain<3>, max_iterations: u32, seed: u64, tolerance: f64 });
 
-/// The report of [`relax`](fn@relax) and [`relax_inside`]. `d_fcc = (sqrt(2) V / N)^(1/3)` is the distance of neighbours in the densest packing, the
-/// face-centred cubic one, of as many points in the volume V.
+/// The report of [`relax`](fn@relax) and [`relax_inside`]. `d_fcc = (sqrt(2) V / N)^(1/3)` is the distance of neighbours in the
+/// densest packing, the face-centred cubic one, of as many points in the volume V.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report {
