@@ -92,13 +92,13 @@ sanitized_address() {
 }
 
 # Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
-# Embree, tracing or samplers of meshes, except in a long run: the others would repeat what they did on the machine.
+# Embree, tracing or its engines, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
     local what=(--workspace) modules=()
     if ! is_long; then
-        mapfile -t what < <(grep -lE '\b(psp|trace|embree|surface)' tests/*.rs ffi/*/tests/*.rs | as_tests)
-        mapfile -t modules < <(grep -lE '\b(psp|trace|embree|surface)' tests/all/*.rs | as_modules)
-        what+=(--package azulejo --package azulejo-c --package azulejo-embree-sys --lib)
+        mapfile -t what < <(grep -lE '\b(trace|embree|engine)' tests/*.rs ffi/*/tests/*.rs | as_tests)
+        mapfile -t modules < <(grep -liE '\b(trace|embree|engine)' tests/all/*.rs | as_modules)
+        what+=(--test=sums --package azulejo --package azulejo-c --package azulejo-embree-sys --lib)
     fi
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
@@ -134,7 +134,7 @@ quick_stages() {
     stage "Package: install, find_package, pkg-config" tests/c/package.sh --quick --keep target/quick
     stage "README and guides: their programs and commands" \
         tests/c/pages.sh target/quick/prefix README.md docs/integrating.md docs/porting.md
-    stage "C and C++ programs" tests/c/run.sh target/quick/prefix
+    stage "C and C++ programs" env AZULEJO_ROUNDS=10 tests/c/run.sh target/quick/prefix
     leave_out "what scripts/test.sh --all adds"
 }
 

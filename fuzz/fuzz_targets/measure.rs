@@ -48,6 +48,37 @@ fn space(input: &mut Input) {
     if let Some(coverage) = reported(azulejo_coverage_report_init, covers) {
         assert!(coverage.covering_radius <= radius || coverage.gaps > 0, "{} > {radius}", coverage.covering_radius);
     }
+    space_spectra(&set, input);
+}
+
+/// The power at a few frequencies, and the density of pairs.
+fn space_spectra(set: &azulejo_space_set, input: &mut Input) {
+    let (reach, stride) = (f64::from(input.below(200)) / 100.0, input.below(4));
+    let width = if input.one_in(8) { input.number() } else { reach / 8.0 };
+    let capacity = input.below(12) as usize;
+    let mut annuli = vec![azulejo_annulus { frequency: -1.0, power: -1.0, anisotropy: -1.0, count: 0 }; capacity];
+    let start = if capacity == 0 { std::ptr::null_mut() } else { annuli.as_mut_ptr() };
+    let size = size_of::<azulejo_annulus>();
+    // SAFETY: the arrays have these lengths.
+    let spectrum = |out: Out<_>| unsafe {
+        azulejo_space_spectrum(context(), set, reach, stride, width, start, capacity, size, out)
+    };
+    if let Some(count) = value(spectrum) {
+        let annuli = &annuli[..count.min(capacity)];
+        assert!(annuli.iter().all(|annulus| annulus.count >= 2 && annulus.power >= 0.0 && annulus.frequency > 0.0));
+    }
+    let (axis, count) = (input.below(4), input.below(9) as usize);
+    let (mut power, mut density) = (vec![f64::NAN; count], vec![f64::NAN; count]);
+    // SAFETY: the arrays have this length.
+    unsafe {
+        if accepted(azulejo_space_axis_power(context(), set, axis, count, power.as_mut_ptr())) {
+            assert!(power.iter().all(|&power| power >= 0.0 && power.is_finite()), "{power:?}");
+        }
+        let reach = input.number();
+        if accepted(azulejo_space_radial_distribution(context(), set, reach, count, density.as_mut_ptr())) {
+            assert!(density.iter().all(|&density| density >= 0.0), "{density:?}");
+        }
+    }
 }
 
 /// A set of the plane, mostly one that is.

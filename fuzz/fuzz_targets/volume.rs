@@ -1,5 +1,5 @@
-//! Sets of cuboids and of the inside of meshes: whole, counted, ordered, around given samples, for sizes and radii of all
-//! kinds.
+//! Sets of cuboids and of the inside of meshes: whole, counted, ordered, around given samples, relaxed, for sizes and radii
+//! of all kinds.
 
 #![no_main]
 
@@ -8,6 +8,7 @@ use azulejo_c::mesh::{azulejo_mesh, azulejo_mesh_create};
 use azulejo_c::order::AZULEJO_ORDER_PROGRESSIVE;
 use azulejo_c::points::azulejo_points;
 use azulejo_c::volume::*;
+use azulejo_c::volume_relax::*;
 use azulejo_core::{Boundary, Domain};
 use azulejo_fuzz::calls::{Arrays, Owned, Patience, accepted, check_distances, context, create, report};
 use azulejo_fuzz::input::Input;
@@ -153,4 +154,45 @@ fn inside(input: &mut Input, patience: &Patience) {
     // SAFETY: both arrays have this length.
     assert!(accepted(unsafe { azulejo_mesh_contains(context(), mesh.get(), start, solid.len(), out) }));
     assert!(options.surface == 1 || is_inside.iter().all(|&inside| inside == 1), "a sample is outside");
+    if samples.len() > 1 && input.one_in(4) {
+        relaxed(&mesh, &samples, done.surface_samples as usize, &is_inside, input, patience);
+    }
+}
+
+/// Relaxes samples: those of the surface stay, those that were inside are so afterwards.
+fn relaxed(
+    mesh: &Owned<azulejo_mesh>,
+    samples: &[[f32; 3]],
+    on_surface: usize,
+    was_inside: &[u8],
+    input: &mut Input,
+    patience: &Patience,
+) {
+    let is_fixed: Vec<u8> = (0..samples.len()).map(|i| u8::from(i < on_surface || input.one_in(8))).collect();
+    let options = azulejo_relax_inside_options {
+        max_iterations: input.below(12),
+        seed: input.any(),
+        progress: Some(Patience::tell),
+        progress_user: patience.user(),
+        fixed: is_fixed.as_ptr(),
+        fixed_count: is_fixed.len(),
+        ..report(azulejo_relax_inside_options_init)
+    };
+    let mut done = report(azulejo_volume_relax_report_init);
+    let (start, count) = (samples.as_ptr().cast(), samples.len());
+    // SAFETY: the options have the size in their `struct_size`, and the arrays the length of the samples.
+    let relax =
+        |out| unsafe { azulejo_volume_relax_inside(context(), mesh.get(), &options, start, count, out, &raw mut done) };
+    let Some(set) = create(relax) else { return };
+    let moved = positions(&set);
+    assert_eq!(moved.len(), samples.len());
+    for (i, (before, after)) in samples.iter().zip(&moved).enumerate() {
+        assert!(is_fixed[i] == 0 || before == after, "{i} was fixed at {before:?} and is at {after:?}");
+    }
+    let mut is_inside = vec![0u8; was_inside.len()];
+    let (start, out) = (moved[on_surface..].as_ptr().cast(), is_inside.as_mut_ptr());
+    // SAFETY: both arrays have this length.
+    assert!(accepted(unsafe { azulejo_mesh_contains(context(), mesh.get(), start, is_inside.len(), out) }));
+    assert!(is_inside.iter().zip(was_inside).all(|(after, before)| after >= before), "a point has left the inside");
+    check_distances(&moved, |a, b| std::array::from_fn(|axis| a[axis] - b[axis]), |_, _| done.smallest_distance);
 }

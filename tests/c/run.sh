@@ -4,8 +4,8 @@
 #   tests/c/run.sh PREFIX [--valgrind]
 #
 # The headers compile without a warning in every standard, and in C++ without exceptions and RTTI; the shared library
-# exports what symbols.txt says and has its SONAME; the test programs pass: plainly, one after the other, with --valgrind
-# also under valgrind, as many at a time as there are cores. Sanitizers are those of sanitized.sh.
+# exports what symbols.txt says and has its SONAME; the test programs pass, plainly and with --valgrind also under valgrind,
+# as many at a time as there are cores. Sanitizers are those of sanitized.sh.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -126,14 +126,13 @@ for source in "${programs[@]}"; do
     beside build "$source"
 done
 all_done
+# It measures what threads do, and has the machine for itself. Valgrind lets one thread work at a time: there is nothing to
+# measure.
+apart step "num_threads.c (plain)" run_plain num_threads.c
 for mode in "${modes[@]}"; do
-    # Some programs measure what their threads do: plain, they have the machine for themselves.
-    how=beside
-    [ "$mode" != plain ] || how=apart
     for source in "${programs[@]}"; do
-        # Valgrind lets one thread work at a time: there is nothing to measure.
-        [ "$mode-$(basename "$source")" != valgrind-num_threads.c ] || continue
-        "$how" step "$(basename "$source") ($mode)" "run_$mode" "$source"
+        [ "$(basename "$source")" = num_threads.c ] ||
+            beside step "$(basename "$source") ($mode)" "run_$mode" "$source"
     done
 done
 all_done
