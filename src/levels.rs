@@ -71,6 +71,11 @@ pub trait Levelled {
     /// filled: the work grows with the whole.
     fn check_work(&self, radius: f64, count: usize) -> Result<()>;
 
+    /// The refusal of any count where nothing is open: given samples cover everything.
+    fn no_place(&self, count: usize) -> Error {
+        Error::invalid("count", format!("{count}, but given samples cover all of the {}", Self::NAMES[1]))
+    }
+
     /// The samples with those that a fill at this radius adds, which are last, and the number of darts thrown.
     fn fill(
         &self,
@@ -258,7 +263,7 @@ pub fn by_count<S: Levelled>(
         ladder.levels.surface.check_work(ladder.next(), count)?;
         ladder.descend(job)?;
         if ladder.levels.len() == 0 {
-            return Err(no_place::<S>(count));
+            return Err(ladder.levels.surface.no_place(count));
         }
         if ladder.levels.len() >= count {
             return Ok(LevelledSet::cut(ladder.levels, count, former));
@@ -334,7 +339,7 @@ pub fn exactly<S: Levelled>(
         levels.refine(&part, radius, key as u64)?;
         let len = levels.len();
         if len == 0 {
-            return Err(no_place::<S>(count));
+            return Err(levels.surface.no_place(count));
         }
         if len < count {
             // The counts known for smaller radii may no longer hold, since sets vary.
@@ -405,11 +410,6 @@ fn root<S: Levelled>(ratio: f64) -> f64 {
         2 => ratio.sqrt(),
         dimension => exp(log(ratio) / f64::from(dimension)),
     }
-}
-
-/// The refusal of any count where given samples cover everything.
-fn no_place<S: Levelled>(count: usize) -> Error {
-    Error::invalid("count", format!("{count}, but given samples cover all of the {}", S::NAMES[1]))
 }
 
 /// The refusal of a count for which the precision of floats is too low.

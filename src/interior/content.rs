@@ -18,6 +18,19 @@ impl Interior {
         *self.volume.get_or_init(|| self.measured_volume())
     }
 
+    /// True if the triangles of the mesh coincide in pairs, so that nothing is inside. O(t log t) for t triangles.
+    pub(crate) fn cancels_out(&self) -> bool {
+        let sorted = |corners: &[[f32; 3]; 3]| {
+            // -0 is 0.
+            let mut corners = corners.map(|corner| corner.map(|x| (x + 0.0).to_bits()));
+            corners.sort_unstable();
+            corners
+        };
+        let mut triangles: Vec<_> = self.tree.corners.iter().map(sorted).collect();
+        triangles.sort_unstable();
+        triangles.chunk_by(|a, b| a == b).all(|same| same.len().is_multiple_of(2))
+    }
+
     fn measured_volume(&self) -> f64 {
         let mut rays = RAYS;
         loop {
@@ -105,5 +118,21 @@ mod tests {
         about(volume(&[([0.0; 3], [1.0; 3]), ([0.5, 0.0, 0.0], [1.5, 1.0, 1.0])]), 1.0);
         // Two copies enclose nothing.
         assert_eq!(volume(&[whole, whole]), 0.0);
+    }
+
+    #[test]
+    fn copies_of_all_triangles_cancel_out_however_they_are_turned() {
+        let (mut positions, triangles) = cuboid([-1.0, 0.0, 2.0], [3.0, 0.5, 3.0]);
+        let cancels_out = |positions: &[[f32; 3]], triangles: Vec<[u32; 3]>| {
+            Interior::of(&Mesh::new(positions.to_vec(), triangles).unwrap()).cancels_out()
+        };
+        assert!(!cancels_out(&positions, triangles.clone()));
+        let count = positions.len() as u32;
+        positions.extend(positions.clone().into_iter().map(|[x, y, z]| [x, if y == 0.0 { -0.0 } else { y }, z]));
+        let turned = triangles.iter().map(|&[a, b, c]| [c + count, b + count, a + count]);
+        let mut both: Vec<_> = triangles.iter().copied().chain(turned).collect();
+        assert!(cancels_out(&positions, both.clone()));
+        both.extend(triangles);
+        assert!(!cancels_out(&positions, both));
     }
 }

@@ -56,6 +56,11 @@ impl Body {
         Self { interior, tolerance, domain, volume, area: mesh.area(), bytes }
     }
 
+    /// An estimate by a few probes: 0 also of bodies that are thin.
+    pub fn volume(&self) -> f64 {
+        self.volume
+    }
+
     pub fn solid(&self) -> Solid<'_> {
         Solid { interior: &self.interior, tolerance: self.tolerance }
     }

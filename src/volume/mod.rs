@@ -302,6 +302,13 @@ impl Levelled for Cuboid<'_> {
         Err(Error::too_large("count", reason))
     }
 
+    fn no_place(&self, count: usize) -> Error {
+        match self.body {
+            Some(_) if !self.has_given => solid::encloses_nothing(),
+            _ => Error::invalid("count", format!("{count}, but given samples cover all of the {}", Self::NAMES[1])),
+        }
+    }
+
     fn fill(&self, job: &Job, options: LevelOptions, radius: f64, samples: &[Sample]) -> Result<(Vec<Sample>, u64)> {
         let lattice = self.space.lattice.with_radius(radius);
         let mut space = Space { lattice: &lattice, ..self.space };

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::host::Stopwatch;
+use crate::interior::Interior;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -47,9 +48,9 @@ pub struct InsideReport {
 /// O(n) for n samples and O(t log t) for t triangles, the latter once for a mesh: [`Interior::of`](crate::Interior::of).
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a `mesh` that is not closed and for an option out of range, also for
-/// [`Surface::First`](crate::volume::Surface::First) with a count or in progressive order, and for a count where there is no
-/// place inside; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+/// [`Error::InvalidArgument`] for a `mesh` that is not closed or encloses nothing and for an option out of range, also for
+/// [`Surface::First`](crate::volume::Surface::First) with a count or in progressive order, and for a count where given samples
+/// leave no place; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
 pub fn sample_inside(
     context: &Context,
     mesh: &Arc<Mesh>,
@@ -59,8 +60,12 @@ pub fn sample_inside(
     let stopwatch = Stopwatch::start();
     options.check()?;
     check_closed(mesh)?;
+    let body = Body::new(mesh, options.tolerance);
+    if body.volume() == 0.0 && Interior::of(mesh).cancels_out() {
+        return Err(encloses_nothing());
+    }
     let (surface_radius, mut positions) = (options.surface_radius()?, Vec::new());
-    let &InsideOptions { amount, tolerance, seed, order, quotient, given, .. } = options;
+    let &InsideOptions { amount, seed, order, quotient, given, .. } = options;
     if let Some(radius) = surface_radius {
         let options = psp::Options::new(radius).seed(seed).given(given);
         let part = progress.map(|progress| move |share: f64| progress(OF_SURFACE * share));
@@ -72,18 +77,25 @@ pub fn sample_inside(
     let around = Given { positions: &all, clearances: clearances.as_deref() };
     let around = if surface_samples == 0 { given } else { around };
 
-    let body = Body::new(mesh, tolerance);
     let options = Options::of(amount).domain(body.domain).seed(seed).order(order).quotient(quotient).given(around);
     let from = surface_radius.map_or(0.0, |_| OF_SURFACE);
     let rest = progress.map(|progress| move |share: f64| progress(from + (1.0 - from) * share));
     let rest = rest.as_ref().map(|rest| rest as &Progress);
     let (mut points, [radius, covering_radius]) = fill(context, &options, Some(&body), rest)?;
+    if points.is_empty() && around.positions.is_empty() && Interior::of(mesh).volume() == 0.0 {
+        return Err(encloses_nothing());
+    }
     if surface_samples > 0 {
         positions.append(&mut points.positions);
         points.positions = positions;
     }
     let (depth, seconds) = (body.depth(covering_radius), stopwatch.seconds());
     Ok((points, InsideReport { radius, covering_radius, depth, surface_samples, seconds }))
+}
+
+/// The refusal of a closed mesh in which no place for a sample was found.
+pub(super) fn encloses_nothing() -> Error {
+    Error::invalid("mesh", "encloses nothing: where parts of a surface coincide they cancel out")
 }
 
 /// Refuses a mesh that has no certain inside.

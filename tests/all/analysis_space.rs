@@ -238,11 +238,11 @@ fn few_points_have_the_coverage_of_their_boxes() {
 fn threads_change_nothing() {
     for boundary in BOUNDARIES {
         let domain = Domain { min: [0.0; 3], max: [2.0, 1.0, 1.0], boundary };
-        let points = random_points(&domain, 3000, 5);
+        let points = random_points(&domain, 1200, 5);
         let of = |threads| {
             let context = Context::new(threads).unwrap();
-            let figures = figures_3d(&context, &domain, &points, 0.05, None).unwrap();
-            let coverage = coverage_3d(&context, &domain, &points, 0.1, None).unwrap();
+            let figures = figures_3d(&context, &domain, &points, 0.1, None).unwrap();
+            let coverage = coverage_3d(&context, &domain, &points, 0.14, None).unwrap();
             assert!(figures.conflicts > 500 && coverage.gaps > 10, "{figures:?} {coverage:?}");
             format!("{figures:?} {coverage:?}")
         };

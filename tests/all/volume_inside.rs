@@ -213,17 +213,27 @@ fn closed_meshes_are_filled() {
 
 /// Two closed copies of a surface enclose nothing.
 #[test]
-fn meshes_that_enclose_nothing_stay_empty() {
-    for soup in
-        [meshes::plane(), meshes::sheets(0.2), meshes::book(4), meshes::random_soup(2, 60), meshes::needles(1e-3)]
-    {
-        let doubled = mesh(meshes::join([(soup.0.clone(), soup.1.clone()), soup]));
-        assert!(doubled.is_closed());
-        let (points, report) = made(&doubled, &InsideOptions::new(0.1));
-        assert!(points.is_empty() && report.surface_samples == 0);
-        let error = sample_inside(&Context::new(1).unwrap(), &doubled, &InsideOptions::by_count(5), None).unwrap_err();
-        assert!(matches!(error, Error::InvalidArgument { argument: "count", .. }), "{error}");
+fn meshes_that_enclose_nothing_are_refused() {
+    let doubled = |soup: Soup| mesh(meshes::join([(soup.0.clone(), soup.1.clone()), soup]));
+    let refuse = |mesh: &Arc<Mesh>, options: InsideOptions| {
+        assert!(mesh.is_closed());
+        let error = sample_inside(&Context::new(1).unwrap(), mesh, &options, None).unwrap_err().to_string();
+        assert!(error.starts_with("mesh: encloses nothing"), "{error}");
+    };
+    let soups =
+        [meshes::plane(), meshes::sheets(0.2), meshes::book(4), meshes::random_soup(2, 60), meshes::needles(1e-3)];
+    for mesh in soups.map(doubled) {
+        refuse(&mesh, InsideOptions::new(0.1));
+        refuse(&mesh, InsideOptions::new(0.1).order(Order::Progressive));
+        refuse(&mesh, InsideOptions::by_count(5));
     }
+    // The same plane by other triangles, which no sample finds.
+    let square = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    refuse(&mesh((square, vec![[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]])), InsideOptions::new(0.1));
+    // What is thinner than the tolerance may stay open, and is not refused.
+    let (positions, triangles) = cube();
+    let thin = positions.into_iter().map(|[x, y, z]| [x, y, 1e-4 * z]).collect();
+    made(&mesh((thin, triangles)), &InsideOptions::new(0.3));
 }
 
 #[test]
