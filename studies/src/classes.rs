@@ -22,6 +22,10 @@ use relaxed::Relaxed;
 use sets::{Measured, Tie};
 use times::{Times, Windows};
 
+/// The first line of the page.
+const SUBJECT: &str = "Sets of several classes: the shares that classes get, their spectra, what they take, and \
+    Wei's sets beside them.";
+
 #[derive(Args)]
 pub struct Study {
     #[command(flatten)]
@@ -108,6 +112,6 @@ impl Study {
             pictures::draw_mesh(context, "dragon", mesh, &effort, &files.picture("dragon")?)?;
         }
         let text = page::text(&effort, &results, dragon.is_some());
-        files.write("Several classes, measured", context.num_threads(), &text)
+        files.write("Several classes, measured", SUBJECT, context.num_threads(), &text)
     }
 }

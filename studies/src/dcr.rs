@@ -25,6 +25,10 @@ use measured::Measured;
 use sets::{METHODS, Start};
 use study::Study;
 
+/// The first line of the page.
+const SUBJECT: &str = "Relaxed sets of the plane and of meshes: regularity, holes, spectra and time of the \
+    momentum method and of the thesis's, beside those of others.";
+
 #[derive(Args)]
 pub struct Dcr {
     #[command(flatten)]
@@ -102,6 +106,6 @@ impl Dcr {
         for section in SECTIONS {
             text += &format!("\n{}", section(&study)?);
         }
-        files.write("DCR, measured", context.num_threads(), &text)
+        files.write("DCR, measured", SUBJECT, context.num_threads(), &text)
     }
 }

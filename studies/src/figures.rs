@@ -14,6 +14,10 @@ use clap::Args;
 
 use crate::args::{MeshArgs, PageArgs};
 
+/// The first line of the page.
+const SUBJECT: &str = "The thesis's smaller experiments, done again: pair correlation, rasteriser, all projectors \
+    at once, boundaries, stipples and light sources.";
+
 #[derive(Args)]
 pub struct Figures {
     #[command(flatten)]
@@ -37,6 +41,6 @@ impl Figures {
             stipple::section(context, &files, quick)?,
             lights::section(self.lights.as_deref(), quick)?,
         ];
-        files.write("Other figures of the thesis, measured", context.num_threads(), &parts.join("\n"))
+        files.write("Other figures of the thesis, measured", SUBJECT, context.num_threads(), &parts.join("\n"))
     }
 }

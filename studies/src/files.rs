@@ -31,14 +31,15 @@ impl Files {
         Output::at(&self.pictures.join(format!("{name}.png")))
     }
 
-    /// Writes the page: a head with date, command and machine, and the text.
-    pub fn write(&self, title: &str, threads: usize, text: &str) -> Result<()> {
+    /// Writes the page: its title and subject, date, command and machine, and the text.
+    pub fn write(&self, title: &str, subject: &str, threads: usize, text: &str) -> Result<()> {
         let (name, quick) = (self.name, if self.quick { " --quick" } else { "" });
+        let space = if text.starts_with('\n') { "" } else { " " };
         let (date, processor) = (Timestamp::now().to_zoned(TimeZone::UTC).date(), processor());
         self.page.write(|writer| {
-            writeln!(writer, "# {title}\n")?;
+            writeln!(writer, "# {title}\n\n{subject}\n")?;
             write!(writer, "Written by `cargo run --release -p azulejo-studies -- {name}{quick}` on {date}, ")?;
-            write!(writer, "on {threads} threads of {processor}. {text}")
+            write!(writer, "on {threads} threads of {processor}.{space}{text}")
         })
     }
 }

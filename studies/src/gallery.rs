@@ -15,6 +15,10 @@ use azulejo_cli::progress::watched;
 use measured::Measured;
 use samplers::{RELAXED, SAMPLERS, Sampler};
 
+/// The first line of the page.
+const SUBJECT: &str = "Points, spectra and a zone plate of the samplers that the thesis compares, by the same \
+    program.";
+
 #[derive(Args)]
 pub struct Gallery {
     #[command(flatten)]
@@ -48,6 +52,6 @@ impl Gallery {
         pictures::draw_sets(direct, &files.picture("samplers")?)?;
         pictures::draw_sets(relaxed, &files.picture("relaxed")?)?;
         pictures::draw_plates(&measured, effort.side, &files.picture("zone-plate")?)?;
-        files.write("Samplers side by side", context.num_threads(), &page::text(&effort, &measured))
+        files.write("Samplers side by side", SUBJECT, context.num_threads(), &page::text(&effort, &measured))
     }
 }

@@ -22,6 +22,10 @@ use crate::psp::scenes::sphere;
 use crate::repeated::ROUNDS;
 use azulejo_cli::progress::watched;
 
+/// The first line of the page.
+const SUBJECT: &str = "The speed and memory asked of azulejo 0.2 for planes, meshes, files, relaxation, given \
+    samples and clouds, and what was reached on the day below.";
+
 #[derive(Args)]
 pub struct Goals {
     #[command(flatten)]
@@ -127,6 +131,6 @@ impl Goals {
         for (name, section) in SECTIONS {
             text += &format!("\n{}", watched(name, |_| section(&study))?);
         }
-        files.write("Goals, measured", context.num_threads(), &(text + "\n" + ELSEWHERE))
+        files.write("Goals, measured", SUBJECT, context.num_threads(), &(text + "\n" + ELSEWHERE))
     }
 }

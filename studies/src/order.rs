@@ -20,6 +20,10 @@ use prefixes::{Direct, Prefixes};
 use surfaces::Surface;
 use times::Times;
 
+/// The first line of the page.
+const SUBJECT: &str = "What progressive order costs: how well spread the prefixes of such sets are, beside sets \
+    made with as many samples directly, and what time they take.";
+
 /// A quotient of the radii of two levels.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Quotient {
@@ -100,6 +104,6 @@ impl Study {
 
         pictures::draw_spectra(&effort, &results.prefixes, &results.direct, &files.picture("spectra")?)?;
         pictures::draw_prefixes(&effort, &results.prefixes[0], &files.picture("prefixes")?)?;
-        files.write("Progressive order, measured", context.num_threads(), &page::text(&effort, &results))
+        files.write("Progressive order, measured", SUBJECT, context.num_threads(), &page::text(&effort, &results))
     }
 }

@@ -14,6 +14,9 @@ use azulejo_cli::progress::watched;
 use integrands::{INTEGRANDS, Pixels};
 use patterns::{PATTERNS, Pattern};
 
+/// The first line of the page.
+const SUBJECT: &str = "How well sets of azulejo estimate pixels, beside random, stratified and Sobol points.";
+
 #[derive(Args)]
 pub struct Study {
     #[command(flatten)]
@@ -77,6 +80,6 @@ impl Study {
             Ok(measured)
         };
         let measured = watched("pixels", measure)?;
-        files.write("Samples of pixels, measured", context.num_threads(), &page::text(&effort, &measured))
+        files.write("Samples of pixels, measured", SUBJECT, context.num_threads(), &page::text(&effort, &measured))
     }
 }

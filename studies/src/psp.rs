@@ -26,6 +26,10 @@ use rates::Rates;
 use rays::Rays;
 use scenes::{Scene, scenes};
 
+/// The first line of the page.
+const SUBJECT: &str = "Sets on meshes, projected and filled: rates, bias and spectra, beside the thesis's figures \
+    and methods of others.";
+
 #[derive(Args)]
 pub struct Psp {
     #[command(flatten)]
@@ -150,6 +154,6 @@ impl Psp {
         let threads = context.num_threads();
         let text = page::text(threads, &effort, &measured, &missing, &others, &density::section(&density), &bias);
         let text = text + "\n" + &adaptive::section(context, &files, self.page.quick)?;
-        files.write("PSP, measured", threads, &text)
+        files.write("PSP, measured", SUBJECT, threads, &text)
     }
 }

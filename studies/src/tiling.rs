@@ -20,6 +20,10 @@ use crate::args::PageArgs;
 use claims::Part;
 use study::Study;
 
+/// The first line of the page.
+const SUBJECT: &str = "The thesis's claims about randomized tiling, each tested: subdivision, bias at the seams, \
+    circumcentres, sizes of pattern and leaves, merged sets.";
+
 #[derive(Args)]
 pub struct Tiling {
     #[command(flatten)]
@@ -51,7 +55,7 @@ impl Tiling {
         for part in &parts {
             text += &format!("\n{}", part.text);
         }
-        files.write("Randomized tiling, measured", context.num_threads(), &text)
+        files.write("Randomized tiling, measured", SUBJECT, context.num_threads(), &text)
     }
 }
 

@@ -23,6 +23,11 @@ use crate::psp::scenes::sphere;
 use crate::repeated::ROUNDS;
 use closed::Closed;
 
+/// The first line of the page.
+const SUBJECT: &str = "Maximal Poisson-disk sets of cuboids and of the inside of meshes, and relaxed sets: what a \
+    sample takes, how dense sets are, whether any two samples conflict and what is left uncovered; beside packages \
+    of others on the same tasks, in the same run.";
+
 #[derive(Args)]
 pub struct Study {
     #[command(flatten)]
@@ -122,7 +127,7 @@ impl Study {
         let fluid = watched("fluid", |_| others::fluid(&self.programs, self.page.quick, self.fluids))?;
         fs::remove_file(&scene.file).map_err(|source| Error::Io { path: scene.file.clone(), source })?;
         let text = page::text(&scene, &rows, &tables, &slab, fluid.as_deref());
-        files.write("Volumes, measured", context.num_threads(), &text)
+        files.write("Volumes, measured", SUBJECT, context.num_threads(), &text)
     }
 
     fn effort(&self) -> Effort {

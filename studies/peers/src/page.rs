@@ -34,9 +34,13 @@ and volumes.
 * **What was not run**: CGAL's `poisson_eliminate`, which the CGAL of no registry in reach has yet (Debian's is 5.5, that \
  of PyPI 6.0; it came with 6.1), and the author's own code of sample elimination, which is no package.";
 
+/// The first line of the page.
+const SUBJECT: &str = "Samplers of the plane, of meshes and of clouds by azulejo and by other packages, on the same tasks: \
+    time, memory, conflicts and gaps.";
+
 pub fn page(tables: &[Table], mesh: &Path, packages: &str) -> Result<String, Box<dyn Error>> {
     let mut page = String::new();
-    writeln!(page, "# azulejo beside its peers\n")?;
+    writeln!(page, "# azulejo beside its peers\n\n{SUBJECT}\n")?;
     writeln!(
         page,
         "Written by `studies/peers/run.sh` on {}, on {} threads of {}, a machine that others use, too. Crates: those of \

@@ -10,11 +10,6 @@ use super::picture::Slab;
 use super::tables::{Outcome, Row, Table};
 use crate::goals::row;
 
-/// The first lines of the page: its subject and its findings.
-const INTRODUCTION: &str = "This page shows maximal Poisson-disk sets of cuboids and of the inside of meshes, and relaxed \
-    sets: what a sample takes, how dense sets are, whether any two samples conflict and what is left uncovered; beside packages of \
-    others on the same tasks, in the same run.\n";
-
 const HOW: &str = "Times are those of processors, user and system together, on one thread, since others use the machine, \
     too: they vary less than times on the wall, but still by what others do to caches and clocks. Calls of others that took less than 0.1 s are \
     timed on the wall. What is compared took turns.\n";
@@ -41,7 +36,7 @@ const ELSEWHERE: &str = "* **Any dimension**: fast_poisson, poisson, poisson-dis
     * **Clouds**: Open3D and point-cloud-utils thin points that exist; `azulejo::thin` does that, too, on other pages.\n";
 
 pub fn text(scene: &Scene, goals: &[row::Row], tables: &[Table], slab: &Slab, fluid: Option<&str>) -> String {
-    let mut page = INTRODUCTION.to_owned();
+    let mut page = "\n".to_owned();
     page += "\n## Where others win\n\nBy the tables below, against azulejo's maximal sets:\n\n";
     let lines: Vec<String> = tables.iter().flat_map(won).collect();
     if lines.is_empty() {
