@@ -217,7 +217,8 @@ def layers(effort: Effort) -> str:
     times = [numpy.sort(patterns.relaxed(count, 3, 1).positions[:, 2]) for count in few]
     found = [int((numpy.diff(of_set) > 0.05).sum()) + 1 for of_set in times]
     counts, of_sets = (" and ".join(map(str, numbers)) for numbers in (few, found))
-    return f"Few relaxed samples of the cube make a lattice along its axes: {counts} of them, of one seed, have but {of_sets} times, 0.05 or more apart."
+    found_of_one = f"{counts} of them, of one seed, have but {of_sets} times, 0.05 or more apart"
+    return f"Few relaxed samples of the cube make a lattice along its axes: {found_of_one}."
 
 
 def text(effort: Effort, quick: bool, all: list[Measured]) -> str:
@@ -233,29 +234,30 @@ def text(effort: Effort, quick: bool, all: list[Measured]) -> str:
         "# Rendering, measured",
         "",
         f"Written by `studies/peers/render.sh{' --quick' if quick else ''}` on {date}, on {os.cpu_count()} threads of {processor()}, "
-        f"with Mitsuba {version('mitsuba')}, scipy {version('scipy')} and azulejo {version('azulejo-sampling')}. "
-        f"Owen-scrambled Sobol samples render depth of field, soft shadows and motion blur with a smaller error than the better of "
-        f"the maximal and relaxed sets of azulejo in {of_sobol}; stratified ones in {of_stratified}; Halton's in {of_halton}; random "
-        f"ones in {of_random}. [What the sets are for](integrating.md#samples-of-pixels); [pixels.md](pixels.md) has the same for functions "
-        "whose means are known.",
+        f"with Mitsuba {version('mitsuba')}, scipy {version('scipy')} and azulejo {version('azulejo-sampling')}. Owen-scrambled Sobol "
+        "samples render depth of field, soft shadows and motion blur with a smaller error than the better of the maximal and relaxed "
+        f"sets of azulejo in {of_sobol}; stratified ones in {of_stratified}; Halton's in {of_halton}; random ones in {of_random}. "
+        "[What the sets are for](integrating.md#samples-of-pixels); [pixels.md](pixels.md) has the same for functions whose means are "
+        "known.",
         "",
-        f"Pictures of {effort.size[0]} by {effort.size[1]} pixels with light straight from one lamp, by Mitsuba's cameras, shapes, materials and lamps, "
-        "which `studies/peers/scenes.py` calls with the samples of a pixel. Only what is listed is sampled; else a pixel is seen "
-        "through its centre, at the middle of the shutter's time.",
+        f"Pictures of {effort.size[0]} by {effort.size[1]} pixels with light straight from one lamp, by Mitsuba's cameras, shapes, "
+        "materials and lamps, which `studies/peers/scenes.py` calls with the samples of a pixel. Only what is listed is sampled; else a "
+        "pixel is seen through its centre, at the middle of the shutter's time.",
         "",
         *(f"* *{one.effect.name[0].upper()}{one.effect.name[1:]}*: {one.effect.about}." for one in all),
         "",
-        "*Random* samples are independent. *Stratified* ones lie anywhere in as many intervals or squares; place and time have "
-        "strata of their own, paired at random. *Sobol*'s and *Halton*'s sequences are scrambled anew in each pixel (Owen 1995). "
-        f"*Moved* says that each pixel has one of {patterns.POOL} sets of its picture, moved along the torus at random; azulejo's have no other way, and the others "
-        "are given the same besides. *Maximal* and *relaxed* sets have exactly as many samples, of the square or "
-        f"the cube; azulejo has none of one dimension, where they are the first coordinates of those of the square. *First of {patterns.LARGEST}* are those of one "
-        f"maximal set. {layers(effort)} How errors are distributed over the picture, which the eye sees, is not measured.",
+        "*Random* samples are independent. *Stratified* ones lie anywhere in as many intervals or squares; place and time have strata "
+        "of their own, paired at random. *Sobol*'s and *Halton*'s sequences are scrambled anew in each pixel (Owen 1995). *Moved* says "
+        f"that each pixel has one of {patterns.POOL} sets of its picture, moved along the torus at random; azulejo's have no other way, "
+        "and the others are given the same besides. *Maximal* and *relaxed* sets have exactly as many samples, of the square or the "
+        "cube; azulejo has none of one dimension, where they are the first coordinates of those of the square. "
+        f"*First of {patterns.LARGEST}* are those of one maximal set. {layers(effort)} How errors are distributed over the picture, which "
+        "the eye sees, is not measured.",
         "",
         "## Errors",
         "",
-        f"Root mean squares over a picture, relative to its mean; means of {effort.seeds} seeds ± their standard errors, by samples of a pixel. "
-        f"The reference has {effort.reference:,} stratified samples of each pixel; its own error, from a second one, is "
+        f"Root mean squares over a picture, relative to its mean; means of {effort.seeds} seeds ± their standard errors, by samples of a "
+        f"pixel. The reference has {effort.reference:,} stratified samples of each pixel; its own error, from a second one, is "
         + ", ".join(f"{rounded(one.uncertainty, 2)} ({one.effect.name})" for one in all)
         + ".",
         "",
@@ -263,12 +265,13 @@ def text(effort: Effort, quick: bool, all: list[Measured]) -> str:
     for one in all:
         lines += table(effort, one)
     lines += [
-        f"In claims as below, of the usual samples when they are moved like the sets: stratified ones have a smaller error in {of_moved[0]}; "
-        f"Sobol's in {of_moved[1]}; Halton's in {of_moved[2]}.",
+        "In claims as below, of the usual samples when they are moved like the sets: stratified ones have a smaller error in "
+        f"{of_moved[0]}; Sobol's in {of_moved[1]}; Halton's in {of_moved[2]}.",
         "",
         f"![Parts of the pictures, {SHOWN} samples of a pixel](rendering/effects.png)",
         "",
-        f"Parts of the pictures, from above {', '.join(one.effect.name for one in all)}; from the left the reference, then {SHOWN} samples of a pixel: "
+        f"Parts of the pictures, from above {', '.join(one.effect.name for one in all)}; from the left the reference, then {SHOWN} "
+        "samples of a pixel: "
         f"{', '.join(method.name.split(',')[0] for method in IN_PICTURE)}.",
         "",
         *claims_table([claim for part in claims for claim in part], verdicts),
