@@ -26,6 +26,10 @@ from numpy.random import Generator  # noqa: E402
 from numpy.typing import NDArray  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 
+# The first line of the page.
+SUBJECT = (
+    "Clouds of exactly 1,024 samples of a thousand small meshes, coarse to fine, by azulejo and by other packages: time and spacing."
+)
 COUNT, FIRST = 1024, 128
 TRIANGLES = (200, 5000)
 GOAL = 0.002
@@ -210,6 +214,8 @@ def text(quick: bool, meshes: list[Surface]) -> str:
     date = datetime.datetime.now(datetime.timezone.utc).date()
     lines = [
         "# Clouds of small meshes, measured",
+        "",
+        SUBJECT,
         "",
         f"Written by `studies/peers/learning.sh{' --quick' if quick else ''}` on {date}, on one thread of {processor()}, with "
         f"{packages}. Faster than azulejo's progressive clouds, by the median: {'; '.join(faster) or 'none'}. Goal: within "

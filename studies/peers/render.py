@@ -22,6 +22,11 @@ from patterns import METHODS, MOVED, OWN, RANDOM, USUAL, Method
 from PIL import Image
 from scipy import stats
 
+# The first line of the page.
+SUBJECT = (
+    "Depth of field, soft shadows and motion blur in Mitsuba 3, sampled by sets of azulejo and by random, stratified, Sobol and "
+    "Halton points: errors at equal counts."
+)
 LEVEL = 0.01
 # The number of samples whose pictures are shown, by which methods, and how large a part of each: pixels and their size.
 SHOWN = 16
@@ -232,6 +237,8 @@ def text(effort: Effort, quick: bool, all: list[Measured]) -> str:
     date = datetime.datetime.now(datetime.timezone.utc).date()
     lines = [
         "# Rendering, measured",
+        "",
+        SUBJECT,
         "",
         f"Written by `studies/peers/render.sh{' --quick' if quick else ''}` on {date}, on {os.cpu_count()} threads of {processor()}, "
         f"with Mitsuba {version('mitsuba')}, scipy {version('scipy')} and azulejo {version('azulejo-sampling')}. Owen-scrambled Sobol "
