@@ -56,9 +56,14 @@ impl Body {
         Self { interior, tolerance, domain, volume, area: mesh.area(), bytes }
     }
 
-    /// An estimate by a few probes: 0 also of bodies that are thin.
-    pub fn volume(&self) -> f64 {
-        self.volume
+    /// True if the triangles of the mesh cancel out.
+    pub fn encloses_nothing(&self) -> bool {
+        self.volume == 0.0 && self.interior.cancels_out()
+    }
+
+    /// True if no ray meets the inside, also of some bodies that are very thin.
+    pub fn seems_empty(&self) -> bool {
+        self.interior.volume() == 0.0
     }
 
     pub fn solid(&self) -> Solid<'_> {

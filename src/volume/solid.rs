@@ -5,7 +5,6 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::host::Stopwatch;
-use crate::interior::Interior;
 use crate::job::{Context, Progress};
 use crate::mesh::Mesh;
 use crate::points::Points;
@@ -61,7 +60,7 @@ pub fn sample_inside(
     options.check()?;
     check_closed(mesh)?;
     let body = Body::new(mesh, options.tolerance);
-    if body.volume() == 0.0 && Interior::of(mesh).cancels_out() {
+    if body.encloses_nothing() {
         return Err(encloses_nothing());
     }
     let (surface_radius, mut positions) = (options.surface_radius()?, Vec::new());
@@ -82,7 +81,7 @@ pub fn sample_inside(
     let rest = progress.map(|progress| move |share: f64| progress(from + (1.0 - from) * share));
     let rest = rest.as_ref().map(|rest| rest as &Progress);
     let (mut points, [radius, covering_radius]) = fill(context, &options, Some(&body), rest)?;
-    if points.is_empty() && around.positions.is_empty() && Interior::of(mesh).volume() == 0.0 {
+    if points.is_empty() && around.positions.is_empty() && body.seems_empty() {
         return Err(encloses_nothing());
     }
     if surface_samples > 0 {
