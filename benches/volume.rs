@@ -24,6 +24,16 @@ fn cuboids(criterion: &mut Criterion) {
             }
         }
     }
+    let radius = f64::cbrt(MAXIMAL_DENSITY_IN_SPACE / 1e6);
+    // The pattern is that of the first call.
+    for leaf_size in [20.0, 40.0] {
+        let (context, options) = (Context::new(1).unwrap(), Options::new(radius).leaf_size(leaf_size));
+        let samples = sample(&context, &options, None).unwrap().0.len();
+        group.throughput(Throughput::Elements(samples as u64));
+        group.bench_function(format!("1e6 periodic, leaves of {leaf_size} radii"), |bencher| {
+            bencher.iter(|| sample(&context, black_box(&options), None).unwrap());
+        });
+    }
     group.finish();
 }
 

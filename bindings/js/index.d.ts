@@ -462,6 +462,11 @@ export interface VolumeOptions extends Cuboid, Given, Ordering, Watched {
     count?: number;
     /** Another seed gives another set. Default 0. */
     seed?: Seed;
+    /**
+     * The shortest side of a leaf of a tiled set, in radii, at least 6; 0, the default: it is not tiled. Neither with a
+     * count nor in progressive order.
+     */
+    leafSize?: number;
 }
 
 /** A maximal Poisson-disk set of a cuboid. */

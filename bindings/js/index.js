@@ -79,7 +79,7 @@ const DENSITY = { values: null, radius: 0, count: 0, width: 0, height: 0, textur
 const EDITED_PLANE = { ...DOMAIN, ...GIVEN, radius: 0, leafSize: 20, seed: 0 };
 const GROWING = { ...GIVEN, ...PROJECTION, radius: 0, seed: 0, cosine: -1 };
 const REGION = { centre: null, radius: null, min: null, max: null };
-const VOLUME = { ...CUBOID, ...GIVEN, ...ORDERING, radius: 0, count: 0, seed: 0 };
+const VOLUME = { ...CUBOID, ...GIVEN, ...ORDERING, radius: 0, count: 0, seed: 0, leafSize: 0 };
 const SPACE = { ...CUBOID, radius: 0 };
 const INSIDE = { ...WATCHED, ...GIVEN, ...ORDERING, radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0 };
 const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
@@ -543,8 +543,10 @@ export function pspSample(mesh, options) {
 export function volumeSample(options) {
     options = withDefaults(VOLUME, options);
     return calling((call) => {
-        const { radius, count, order, quotient } = options;
-        const numbers = [...amount(radius, count), ...domainOf(options, 3), constant("order", order, ORDERS), quotient];
+        const { radius, count, order, quotient, leafSize } = options;
+        const numbers = [
+            ...amount(radius, count), ...domainOf(options, 3), constant("order", order, ORDERS), quotient, leafSize,
+        ];
         const place = call.options(numbers);
         const types = [Float32Array, Float32Array, Float64Array];
         const args = [place, seedOf(options), ...given(call, options, 3)];

@@ -526,6 +526,7 @@ def volume_sample(
     quotient: Optional[SupportsFloat] = None,
     given_positions: Optional[ArrayLike] = None,
     given_clearances: Optional[ArrayLike] = None,
+    leaf_size: SupportsFloat = 0.0,
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...

@@ -175,6 +175,21 @@ fn volume_is_made_around_given_points() {
     assert!(points.iter().eq(expected.positions.iter()));
 }
 
+#[test]
+fn volume_is_tiled() {
+    let workshop = Workshop::new();
+    workshop.succeed(&["volume", "--radius", "0.0288", "--leaf-size", "6", "-o", "a.ply"]);
+    let options = Options::new(0.0288).leaf_size(6.0);
+    let (expected, _) = sample(&Context::new(1).unwrap(), &options, None).unwrap();
+    assert!(rows(&workshop, "a.ply", 3).1.iter().eq(expected.positions.iter()));
+    for (arguments, name) in
+        [(["--radius", "0.1"], "leaf_size: 2.0 is neither 0"), (["--count", "9"], "leaf_size: 2.0")]
+    {
+        let said = workshop.refuse(&[&["volume", "--leaf-size", "2", "-o", "b.ply"], &arguments[..]].concat(), 1);
+        assert!(said.starts_with(&format!("error: {name}")), "{said}");
+    }
+}
+
 /// A tetrahedron, and without its last face.
 const SOLID: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\n";
 

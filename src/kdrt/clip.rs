@@ -5,7 +5,7 @@
 //! it contains only the points *inside* the leaf, without the thesis's margin of 2r, because the gaps along its
 //! boundary are filled anyway.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use crate::error::Result;
 use crate::index::Binned;
@@ -15,6 +15,7 @@ use crate::plane::{Lattice, Rect};
 use crate::rng::{Draw, Rng};
 
 use crate::kdrt::divide::Leaf;
+use crate::kdrt::patterns::{Key, Patterns};
 
 /// The pattern's side in leaf sizes and its bounds in radii, if leaves are not very large: about 28,000 samples with
 /// the leaves of the default size.
@@ -102,17 +103,8 @@ impl Pattern {
 
     /// [`Pattern::new`], or the one that the context keeps from an earlier call with the same arguments.
     pub fn kept(job: &Job, plane: &Lattice, side: i32, seed: u64) -> Result<Arc<Self>> {
-        let key = Key { side, radius: plane.radius.to_bits(), seed };
-        let patterns = job.kept(|| Ok(Patterns::default()))?;
-        if let Some(pattern) = patterns.find(key) {
-            return Ok(pattern);
-        }
-        // Two calls at once may both make it: none waits for another.
-        let pattern = Arc::new(Self::new(job, plane, side, seed)?);
-        if f64::from(side) <= SIDES[1] * plane.radius + 1.0 {
-            patterns.keep(key, &pattern);
-        }
-        Ok(pattern)
+        let is_small = f64::from(side) <= SIDES[1] * plane.radius + 1.0;
+        Patterns::kept(job, Key::new(side, plane.radius, seed), is_small, || Self::new(job, plane, side, seed))
     }
 
     fn from_points(job: &Job, points: &[[i32; 2]], side: i32, height: i32) -> Result<Self> {
@@ -185,42 +177,6 @@ impl Pattern {
     }
 }
 
-// # Kept patterns
-//
-// Calls for parts of one plane, and for planes of one seed and radius, have the same pattern, which takes as long to make
-// as tens of thousands of samples. A context keeps those made last.
-
-/// The number of patterns that a context keeps, of 0.9 MB each; none whose leaves are so large that it is larger.
-const PATTERNS: usize = 4;
-
-/// All that a pattern depends on: its lattice is the integers, and its separation follows from the radius.
-#[derive(Clone, Copy, PartialEq)]
-struct Key {
-    side: i32,
-    radius: u64,
-    seed: u64,
-}
-
-/// Patterns with their keys, from the one that was used last to the one that was not for longest.
-#[derive(Default)]
-struct Patterns(Mutex<Vec<(Key, Arc<Pattern>)>>);
-
-impl Patterns {
-    fn find(&self, key: Key) -> Option<Arc<Pattern>> {
-        let mut patterns = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let index = patterns.iter().position(|(of, _)| *of == key)?;
-        patterns[..=index].rotate_right(1);
-        Some(patterns[0].1.clone())
-    }
-
-    fn keep(&self, key: Key, pattern: &Arc<Pattern>) {
-        let mut patterns = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        patterns.retain(|(of, _)| *of != key);
-        patterns.truncate(PATTERNS - 1);
-        patterns.insert(0, (key, pattern.clone()));
-    }
-}
-
 /// A point of a square torus after one of four turns.
 fn turned([x, y]: [i32; 2], side: i32, turn: usize) -> [i32; 2] {
     match turn {
@@ -234,6 +190,7 @@ fn turned([x, y]: [i32; 2], side: i32, turn: usize) -> [i32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kdrt::patterns::PATTERNS;
 
     /// Turns preserve all distances on the torus, and no two are the same or opposite.
     #[test]

@@ -24,6 +24,7 @@ mod editable;
 mod fill;
 mod merge;
 mod options;
+mod patterns;
 mod plane;
 mod progressive;
 mod refill;
@@ -45,3 +46,4 @@ pub use options::{DEFAULT_LEAF_SIZE, Kind, MIN_LEAF_SIZE, Options, Progressive};
 pub use plane::{Plane, sample, sample_window};
 
 pub(crate) use divide::{Leaf, Tree};
+pub(crate) use patterns::{Key, Patterns};

@@ -99,6 +99,11 @@ impl<const D: usize> Lattice<D> {
         Self { radius, separation: Separation::new(radius), ..self.clone() }
     }
 
+    /// A square torus of points of this lattice, or a cubic one, with the same radius.
+    pub fn square_torus(&self, side: i32) -> Self {
+        Self { size: [side; D], boundary: Boundary::Periodic, ..self.clone() }
+    }
+
     /// The domain in lattice points.
     pub fn rect(&self) -> Rect<D> {
         Rect { min: [0; D], max: self.size }
@@ -196,11 +201,6 @@ impl Lattice {
     pub fn widened(&self, units: f64) -> Self {
         let radius = self.radius + units;
         Self { radius, separation: Separation::new(radius), ..self.clone() }
-    }
-
-    /// A square torus of points of this lattice, with the same radius.
-    pub fn square_torus(&self, side: i32) -> Self {
-        Self { size: [side; 2], boundary: Boundary::Periodic, ..self.clone() }
     }
 
     /// The approximate number of samples of a maximal set; at least one. On a bounded domain, whose disks lie partly

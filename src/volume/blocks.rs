@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use crate::kdrt::{Leaf, Tree};
 use crate::plane::{Lattice, Rect};
 use crate::points::Boundary;
+use crate::rng::{Draw, Rng};
 use crate::volume::fill::Pass;
 
 /// The shortest side of a block, in radii, where the domain is wider. Sides are random, below twice this.
@@ -68,6 +69,11 @@ impl Blocks {
     /// The number of the block that a lattice point of the domain lies in.
     pub fn holding(&self, point: [i32; 3]) -> u32 {
         self.numbers[&self.tree.leaf(point).key]
+    }
+
+    /// The random numbers of a pass over a block.
+    pub fn rng(&self, block: u32, pass: Pass) -> Rng {
+        Rng::at(self.leaves[block as usize].key, Draw::Volume, &[pass as u64])
     }
 
     /// The lattice points on which the darts of a block fall.

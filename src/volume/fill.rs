@@ -72,10 +72,13 @@ impl<S: Shape> Work for Fill<'_, S> {
     type Out = Vec<Centre>;
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> Vec<Centre> {
+    fn run<L: Lanes>(mut self, lanes: L) -> Vec<Centre> {
         self.grid.reset(&self.region, self.radius, self.separation, self.given);
+        self.shape.begin(self.grid);
         for &sample in self.around {
-            self.grid.add(lanes, sample);
+            if self.shape.needs(self.grid, sample) {
+                self.grid.add(lanes, sample);
+            }
         }
         // Compiled twice, so that sets without given samples pay nothing for them.
         if self.given.is_empty() { self.fill::<L, false>(lanes) } else { self.fill::<L, true>(lanes) }

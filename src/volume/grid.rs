@@ -10,6 +10,7 @@
 //! `1 + SLACK` none, and what lies between is decided by the integers. Voxels that a ball covers within the slack only are
 //! divided, until the last ones are searched in integers (`search.rs`).
 
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use crate::plane::{Disk, Rect, Separation};
@@ -93,6 +94,14 @@ pub struct Grid {
     given: Obstacles,
 }
 
+/// Cells that a ball may touch: ranges of their numbers.
+pub struct Touched {
+    /// Along x.
+    pub columns: Range<usize>,
+    /// Along y and z.
+    pub rows: [Range<usize>; 2],
+}
+
 /// A place in a cell where a sample may be put.
 #[derive(Clone, Copy)]
 pub struct Dart {
@@ -140,6 +149,62 @@ impl Grid {
     /// The cells along each axis.
     pub fn counts(&self) -> [usize; 3] {
         self.counts
+    }
+
+    /// The cells that a ball may touch, if there are any: a box around it. Its centre need not lie in the region.
+    #[inline(always)]
+    pub fn touched(&self, centre: Centre) -> Option<Touched> {
+        let along = |axis: usize| {
+            let along = f64::from(centre[axis] - self.origin[axis]);
+            let [low, high] = [along - self.reach, along + self.reach].map(|plane| plane * self.per_unit[axis]);
+            // Rounded towards 0, both: a place below the region touches none, or the first cell for one that is near.
+            let last = self.counts[axis] as f64 - 1.0;
+            let (low, high) = (low.max(0.0) as usize, high.min(last));
+            if high < low as f64 { 0..0 } else { low..high as usize + 1 }
+        };
+        let [columns, rows, layers] = [along(0), along(1), along(2)];
+        let is_none = columns.is_empty() || rows.is_empty() || layers.is_empty();
+        (!is_none).then_some(Touched { columns, rows: [rows, layers] })
+    }
+
+    /// The cells of a row, by its numbers along y and z, that a ball may touch.
+    pub fn touched_columns(&self, centre: Centre, y: usize, z: usize) -> Range<usize> {
+        let along = |axis: usize| f64::from(centre[axis] - self.origin[axis]);
+        let beyond = |axis: usize, cell: usize| {
+            ((along(axis) - (cell as f64 + 0.5) * self.sides[axis]).abs() - 0.5 * self.sides[axis]).max(0.0)
+        };
+        let [y, z] = [beyond(1, y), beyond(2, z)];
+        // Wider by more than rounding.
+        let half = (self.reach * self.reach - y * y - z * z).max(0.0).sqrt() + 1e-6 * self.reach;
+        let [low, high] = [along(0) - half, along(0) + half].map(|plane| plane * self.per_unit[0]);
+        let last = self.counts[0] as f64 - 1.0;
+        let (low, high) = (low.max(0.0) as usize, high.min(last));
+        if high < low as f64 { 0..0 } else { low..high as usize + 1 }
+    }
+
+    /// The cells along each axis all of whose lattice points lie in a box.
+    pub fn cells_within(&self, rect: &Rect<3>) -> [Range<usize>; 3] {
+        std::array::from_fn(|axis| {
+            let (size, count) = (i64::from(self.size[axis]), self.counts[axis] as i64);
+            let edge = |cell: usize| ((cell as i64 * size + count - 1) / count) as i32 + self.origin[axis];
+            let first = (0..self.counts[axis]).find(|&cell| edge(cell) >= rect.min[axis]);
+            let last = (0..self.counts[axis]).rfind(|&cell| edge(cell + 1) <= rect.max[axis]);
+            match (first, last) {
+                (Some(first), Some(last)) if first <= last => first..last + 1,
+                _ => 0..0,
+            }
+        })
+    }
+
+    /// True if a given ball has a lattice point of the region.
+    pub fn given_covers(&self, point: Centre) -> bool {
+        let (mut cell, mut local) = (0, [0; 3]);
+        for axis in [2, 1, 0] {
+            local[axis] = point[axis] - self.origin[axis];
+            let along = (f64::from(local[axis]) * self.per_unit[axis]) as usize;
+            cell = cell * self.counts[axis] + along.min(self.counts[axis] - 1);
+        }
+        self.given.cover_cell(cell) || self.given.cover(cell as u16, local)
     }
 
     /// The numbers of a cell along the axes.

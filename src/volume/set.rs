@@ -1,10 +1,9 @@
-//! A set of a cuboid, filled block by block.
+//! A set of a cuboid, filled block by block, on request around the copies of a tiling.
 
 use crate::error::Result;
 use crate::job::{Job, chunks_of};
 use crate::levels::LevelOptions;
 use crate::plane::Rect;
-use crate::rng::{Draw, Rng};
 use crate::simd::Level;
 use crate::volume::blocks::{Blocks, REACH};
 use crate::volume::fill::{Fill, Pass};
@@ -12,10 +11,15 @@ use crate::volume::grid::Grids;
 use crate::volume::ranks;
 use crate::volume::search::Centre;
 use crate::volume::space::Space;
+use crate::volume::tiling::{Conquered, Tiling};
 
 /// The samples that one task assigns to blocks, and the share of a level that this takes.
 const SAMPLES_PER_TASK: usize = 1 << 14;
 const SORTING: f64 = 0.05;
+
+/// The shares of a tiled set that its pattern takes, and that and the clips.
+const PATTERN: f64 = 0.1;
+const CLIPS: f64 = 0.2;
 
 /// A sample of a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,18 +41,48 @@ pub struct Set<'a> {
     ranks: Vec<Vec<f32>>,
     grids: Grids,
     level: Level,
+    tiled: Option<Tiled<'a>>,
+}
+
+/// A tiling, and the points of its clips that were eliminated, by blocks.
+struct Tiled<'a> {
+    tiling: Tiling<'a>,
+    eliminated: Vec<Vec<Centre>>,
 }
 
 impl<'a> Set<'a> {
-    /// A maximal set around given balls, by the widest vectors of the processor.
-    pub fn maximal(job: &Job, space: Space<'a>, seed: u64) -> Result<Self> {
-        Self::new(job, space, seed, Level::widest())
+    /// A maximal set around given balls, tiled if it has leaves, by the widest vectors of the processor.
+    pub fn maximal(job: &Job, space: Space<'a>, leaf_size: Option<f64>, seed: u64) -> Result<Self> {
+        let level = Level::widest();
+        leaf_size.map_or_else(|| Self::new(job, space, seed, level), |size| Self::tiled(job, space, size, seed, level))
     }
 
     /// A maximal set around given balls, by instructions of some level.
     pub fn new(job: &Job, space: Space<'a>, seed: u64, level: Level) -> Result<Self> {
         let mut set = Self::empty(space, seed, level);
         set.fill(job, Pass::ALL)?;
+        Ok(set)
+    }
+
+    /// A maximal set around given balls that is tiled by leaves of some size, by instructions of some level. The cuboid must be
+    /// worth it.
+    pub fn tiled(job: &Job, space: Space<'a>, leaf_size: f64, seed: u64, level: Level) -> Result<Self> {
+        let tiling = Tiling::new(&job.part(0.0, PATTERN), space.lattice, leaf_size, seed, level)?;
+        let mut set = Self::empty(space, seed, level);
+        let conquered = job.part(PATTERN, CLIPS).map(set.blocks.leaves.len(), |block| {
+            let block = &set.blocks.leaves[block].rect;
+            let mut grid = set.grids.take();
+            let conquered = tiling.conquer(block, &space.given.near(block), &mut grid);
+            set.grids.give(grid);
+            conquered
+        })?;
+        let mut eliminated = Vec::with_capacity(conquered.len());
+        for (samples, Conquered { samples: stay, eliminated: others }) in set.samples.iter_mut().zip(conquered) {
+            *samples = stay;
+            eliminated.push(others);
+        }
+        set.tiled = Some(Tiled { tiling, eliminated });
+        set.fill(&job.part(CLIPS, 1.0), Pass::LAST)?;
         Ok(set)
     }
 
@@ -79,7 +113,7 @@ impl<'a> Set<'a> {
         let count = blocks.leaves.len();
         let (samples, ranks) = (vec![Vec::new(); count], vec![Vec::new(); count]);
         let (known, grids) = (vec![0; count], Grids::default());
-        Self { space, blocks, samples, known, largest_rank: None, ranks, grids, level }
+        Self { space, blocks, samples, known, largest_rank: None, ranks, grids, level, tiled: None }
     }
 
     /// Adds samples until the set is maximal.
@@ -111,12 +145,22 @@ impl<'a> Set<'a> {
     fn fill_block(&self, block: u32, pass: Pass) -> (Vec<Centre>, Vec<f32>) {
         let Self { space: Space { lattice, given, .. }, blocks, .. } = self;
         let leaf = &blocks.leaves[block as usize];
-        let region = blocks.region(lattice, &leaf.rect, pass);
-        let mut window = region.grown(lattice.separation.reach + 1);
+        let mut region = blocks.region(lattice, &leaf.rect, pass);
+        let margin = lattice.separation.reach + 1;
+        let exposed = self.tiled.as_ref().map(|Tiled { tiling, eliminated }| {
+            tiling.exposed(&region, self.around(eliminated, block, &region.grown(margin)))
+        });
+        if let Some(exposed) = &exposed {
+            region = exposed.extent;
+            if region.is_empty() {
+                return Default::default();
+            }
+        }
+        let mut window = region.grown(margin);
         if self.largest_rank.is_some() {
             window = window.hull(&leaf.rect.grown((REACH * lattice.radius).ceil() as i32 + 1));
         }
-        let around = self.around(block, &window);
+        let around = self.around(&self.samples, block, &window);
         let mut grid = self.grids.take();
         let fill = Fill {
             shape: (),
@@ -129,9 +173,9 @@ impl<'a> Set<'a> {
             around: &around,
             given: &given.near(&region),
             images: &blocks.images,
-            rng: Rng::at(leaf.key, Draw::Volume, &[pass as u64]),
+            rng: blocks.rng(block, pass),
         };
-        let added = self.space.run(self.level, fill);
+        let added = self.space.run(self.level, fill, exposed);
         self.grids.give(grid);
         let ranks = self
             .largest_rank
@@ -139,13 +183,14 @@ impl<'a> Set<'a> {
         (added, ranks.unwrap_or_default())
     }
 
-    /// The samples of a block, and those of its neighbours in a window, with all images that matter.
-    fn around(&self, block: u32, window: &Rect<3>) -> Vec<Centre> {
+    /// The points of a block, of some that are sorted by blocks, and those of its neighbours in a window, with all images that
+    /// matter.
+    fn around(&self, points: &[Vec<Centre>], block: u32, window: &Rect<3>) -> Vec<Centre> {
         let moved = |sample: Centre, by: [i32; 3]| -> Centre { std::array::from_fn(|axis| sample[axis] + by[axis]) };
-        let mut around = self.samples[block as usize].clone();
+        let mut around = points[block as usize].clone();
         for &(other, image) in &self.blocks.neighbours[block as usize] {
-            let images = self.samples[other as usize].iter().map(|&sample| moved(sample, image));
-            around.extend(images.filter(|&sample| window.contains(sample)));
+            let images = points[other as usize].iter().map(|&point| moved(point, image));
+            around.extend(images.filter(|&point| window.contains(point)));
         }
         let count = around.len();
         for &image in &self.blocks.images {
@@ -154,6 +199,11 @@ impl<'a> Set<'a> {
             around[start..].iter_mut().for_each(|sample| *sample = moved(*sample, image));
         }
         around
+    }
+
+    /// The samples as lattice points, block after block.
+    pub fn into_points(self) -> Vec<Centre> {
+        self.samples.into_iter().flatten().collect()
     }
 
     /// The coordinates of the samples, block after block.
@@ -179,7 +229,7 @@ mod tests {
         let given = GivenDisks::default();
         let space = Space { lattice, given: &given, solid: None };
         let set = context.run(None, |job| Set::new(job, space, seed, level)).unwrap();
-        set.samples.into_iter().flatten().collect()
+        set.into_points()
     }
 
     #[test]

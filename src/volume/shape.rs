@@ -38,6 +38,15 @@ impl Voxels {
 
 /// The shape of a block.
 pub trait Shape {
+    /// Is told the cells of the grid, before balls are listed in them.
+    fn begin(&mut self, _: &Grid) {}
+
+    /// False if a ball touches no cell that has part in the shape: it need not be listed.
+    #[inline(always)]
+    fn needs(&self, _: &Grid, _: Centre) -> bool {
+        true
+    }
+
     /// The cells of a grid that have part in it, from those that are open.
     fn cells<L: Lanes>(&mut self, lanes: L, grid: &Grid, open: Vec<Voxel>) -> Voxels;
 

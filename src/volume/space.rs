@@ -2,6 +2,7 @@
 
 use crate::plane::{GivenDisks, Lattice};
 use crate::simd::{self, Level};
+use crate::volume::exposed::Exposed;
 use crate::volume::fill::Fill;
 use crate::volume::inside::Solid;
 use crate::volume::search::Centre;
@@ -19,11 +20,13 @@ pub struct Space<'a> {
 }
 
 impl Space<'_> {
-    /// The new samples of a fill, in the part of its region that belongs to the space, by instructions of some level.
-    pub fn run(&self, level: Level, fill: Fill<()>) -> Vec<Centre> {
-        match self.solid {
-            None => simd::run(level, fill.of_shape(Whole)),
-            Some(solid) => {
+    /// The new samples of a fill, in the part of its region that belongs to the space, or that is exposed in a tiled one, by
+    /// instructions of some level.
+    pub fn run(&self, level: Level, fill: Fill<()>, exposed: Option<Exposed>) -> Vec<Centre> {
+        match (exposed, self.solid) {
+            (Some(exposed), _) => simd::run(level, fill.of_shape(exposed)),
+            (None, None) => simd::run(level, fill.of_shape(Whole)),
+            (None, Some(solid)) => {
                 let inside = solid.within(self.lattice, fill.region);
                 simd::run(level, fill.of_shape(inside))
             }

@@ -615,6 +615,7 @@ const VOLUME: &[Call] = &[
             ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
             ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
             ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
+            ("leaf_size: ", |c, p| said(volume::sample(c, &volume::Options::new(0.1).leaf_size(2.0), p))),
             ("domain_max: ", |c, p| {
                 said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
             }),

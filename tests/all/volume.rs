@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 
+use azulejo::analysis::space::figures_3d;
 use azulejo::volume::{Options, sample};
-use azulejo::{Boundary, Context, Domain, Error, MAXIMAL_DENSITY_IN_SPACE};
+use azulejo::{Boundary, Context, Domain, Error, Given, MAXIMAL_DENSITY_IN_SPACE, Order};
 use proptest::prelude::*;
 
-use crate::common::BOUNDARIES;
+use crate::common::random::Random;
 use crate::common::volume_oracle::{HARD_CUBOIDS, check, conflict, gap};
+use crate::common::{BOUNDARIES, float_spacing};
 
 fn cuboid(min: [f64; 3], max: [f64; 3], boundary: Boundary) -> Domain<3> {
     Domain { min, max, boundary }
@@ -99,6 +101,55 @@ fn seeds_and_not_threads_or_earlier_calls_decide() {
             assert_eq!(first, found.0.positions);
         }
     }
+}
+
+/// Cubes that are just large enough to be tiled, alone and around samples, some of which lie deep inside leaves.
+#[test]
+fn tiled_cuboids_have_no_conflict_and_no_gap() {
+    let (context, mut random, radius) = (Context::new(2).unwrap(), Random::new(5), 0.0288);
+    for boundary in BOUNDARIES {
+        let domain = Domain::unit(boundary);
+        let options = Options::new(radius).domain(domain).seed(7).leaf_size(6.0);
+        let made = |threads: usize, options: &Options| {
+            sample(&Context::new(threads).unwrap(), options, None).unwrap().0.positions
+        };
+        let figures = |positions: &[[f32; 3]]| figures_3d(&context, &domain, positions, radius, None).unwrap();
+        let farthest = |spacings: f64| radius + spacings * float_spacing(&domain);
+        let positions = made(1, &options);
+        let density = positions.len() as f64 / samples(domain, radius, 7).len() as f64;
+        assert!((1.005..1.06).contains(&density), "{density}");
+        let alone = figures(&positions);
+        assert!(alone.conflicts == 0 && alone.covering_radius <= farthest(3.5), "{alone:?}");
+        assert_eq!(made(3, &options), positions);
+        assert_ne!(made(2, &options.seed(8)), positions);
+
+        let given: Vec<[f32; 3]> = (0..60).map(|_| [0; 3].map(|_| random.unit())).collect();
+        let around = made(2, &options.given(Given::at(&given)));
+        let all = figures(&[&*around, &given].concat());
+        // Given samples are not compared with each other.
+        assert_eq!(all.conflicts, figures(&given).conflicts);
+        assert!(all.covering_radius <= farthest(7.0), "{all:?}");
+    }
+}
+
+#[test]
+fn small_cuboids_are_not_tiled() {
+    let domain = cuboid([0.0; 3], [1.0, 0.4, 2.0], Boundary::Periodic);
+    let options = Options::new(0.05).domain(domain).leaf_size(6.0);
+    assert_eq!(sample(&Context::new(1).unwrap(), &options, None).unwrap().0.positions, samples(domain, 0.05, 0));
+}
+
+#[test]
+fn leaf_sizes_out_of_range_and_those_without_effect_are_refused() {
+    let refused = |options: &Options| sample(&Context::new(1).unwrap(), options, None).unwrap_err().to_string();
+    for leaf_size in [f64::NAN, f64::INFINITY, -20.0, 5.9, 1e-300] {
+        let said = refused(&Options::new(0.1).leaf_size(leaf_size));
+        assert_eq!(said, format!("leaf_size: {leaf_size:?} is neither 0 nor a finite number of at least 6 (radii)"));
+    }
+    let said = refused(&Options::by_count(10).leaf_size(20.0));
+    assert_eq!(said, "leaf_size: 20.0 has no effect with a count");
+    let said = refused(&Options::new(0.1).order(Order::Progressive).leaf_size(20.0));
+    assert_eq!(said, "leaf_size: 20.0 has no effect in progressive order");
 }
 
 #[test]

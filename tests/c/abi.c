@@ -104,7 +104,7 @@ FIELD(azulejo_classes_report, samples, 8);
 FIELD(azulejo_classes_report, counts, 16);
 FIELD(azulejo_classes_report, seconds, 144);
 
-SIZE(azulejo_volume_options, 136);
+SIZE(azulejo_volume_options, 144);
 FIELD(azulejo_volume_options, struct_size, 0);
 FIELD(azulejo_volume_options, boundary, 4);
 FIELD(azulejo_volume_options, radius, 8);
@@ -120,6 +120,7 @@ FIELD(azulejo_volume_options, quotient, 104);
 FIELD(azulejo_volume_options, given_positions, 112);
 FIELD(azulejo_volume_options, given_clearances, 120);
 FIELD(azulejo_volume_options, given_count, 128);
+FIELD(azulejo_volume_options, leaf_size, 136);
 
 SIZE(azulejo_volume_report, 40);
 FIELD(azulejo_volume_report, struct_size, 0);

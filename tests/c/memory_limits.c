@@ -65,6 +65,12 @@ static azulejo_status volume(const azulejo_context *context, size_t count) {
     return of_cube(context, &o);
 }
 
+static azulejo_status volume_tiled(const azulejo_context *context, size_t count) {
+    azulejo_volume_options o = volume_options(volume_radius(count));
+    o.leaf_size = 20;
+    return of_cube(context, &o);
+}
+
 /* The cube has a volume of 1. */
 static azulejo_status volume_inside(const azulejo_context *context, size_t count) {
     azulejo_volume_inside_options o;
@@ -595,6 +601,7 @@ static const struct {
 } calls[] = {
     {"maximal", maximal, 500000, MOST_ASKED},
     {"volume", volume, 1000000, MOST_ASKED},
+    {"volume, tiled", volume_tiled, 1000000, MOST_ASKED},
     {"volume, inside a mesh", volume_inside, 500000, MOST_ASKED_AROUND},
     {"volume, progressive", volume_progressive, 400000, MOST_ASKED_UNEVENLY},
     {"volume, count", volume_count, 400000, MOST_ASKED_UNEVENLY},

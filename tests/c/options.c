@@ -98,6 +98,7 @@ static void defaults(void) {
     CHECK(volume.seed == 0 && volume.progress == NULL && volume.progress_user == NULL);
     CHECK(volume.count == 0 && volume.order == AZULEJO_ORDER_ANY && volume.reserved == 0 && volume.quotient == 0);
     CHECK(volume.given_positions == NULL && volume.given_clearances == NULL && volume.given_count == 0);
+    CHECK(volume.leaf_size == 0);
 }
 
 static void refused_inits(void) {

@@ -77,6 +77,33 @@ static void fills(uint32_t boundary) {
     azulejo_points_free(points);
 }
 
+/* A tiled set: no two samples are nearer than the radius, and it has more of them than one that is not tiled. */
+static void tiles(uint32_t boundary) {
+    azulejo_volume_options o = volume_options(0.0288);
+    azulejo_points *plain = NULL, *points = NULL;
+    azulejo_space_report figures;
+    azulejo_space_set set;
+    size_t count;
+    ACCEPTED(azulejo_space_report_init(&figures, sizeof figures));
+    ACCEPTED(azulejo_space_set_init(&set, sizeof set));
+    o.boundary = boundary;
+    if (!ACCEPTED(azulejo_volume_sample(three, &o, &plain, NULL))) return;
+    count = azulejo_points_count(plain);
+    azulejo_points_free(plain);
+    o.leaf_size = 6;
+    if (!ACCEPTED(azulejo_volume_sample(three, &o, &points, NULL))) return;
+    CHECK((double)azulejo_points_count(points) > 1.005 * (double)count);
+    CHECK((double)azulejo_points_count(points) < 1.06 * (double)count);
+    set.boundary = boundary;
+    set.positions = azulejo_points_positions(points);
+    set.count = azulejo_points_count(points);
+    if (ACCEPTED(azulejo_space_measure(three, &set, o.radius, &figures))) {
+        CHECK(figures.conflicts == 0 && figures.smallest_distance >= o.radius);
+        CHECK(figures.covering_radius <= o.radius + 3.5 / 8388608.0);
+    }
+    azulejo_points_free(points);
+}
+
 /* Around a given sample, in order, and a count: distances, ranks and the report. */
 static void around_in_order_and_counted(uint32_t boundary) {
     const float centre[3] = {0.5f, 0.5f, 0.9f};
@@ -156,6 +183,12 @@ static void refused(void) {
     bad = good;
     bad.given_count = 1;
     REFUSED(INVALID, "given_positions", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad = good;
+    bad.leaf_size = 5;
+    REFUSED(INVALID, "leaf_size: 5.0 is neither 0", azulejo_volume_sample(one, &bad, &out, NULL));
+    bad.leaf_size = 20;
+    bad.order = AZULEJO_ORDER_PROGRESSIVE;
+    REFUSED(INVALID, "leaf_size: 20.0 has no effect in", azulejo_volume_sample(one, &bad, &out, NULL));
     bad = good;
     bad.struct_size = 8;
     REFUSED(INVALID, "struct_size", azulejo_volume_sample(one, &bad, &out, NULL));
@@ -283,6 +316,8 @@ int main(void) {
     three = make_context(3);
     fills(AZULEJO_BOUNDARY_PERIODIC);
     fills(AZULEJO_BOUNDARY_BOUNDED);
+    tiles(AZULEJO_BOUNDARY_PERIODIC);
+    tiles(AZULEJO_BOUNDARY_BOUNDED);
     around_in_order_and_counted(AZULEJO_BOUNDARY_PERIODIC);
     around_in_order_and_counted(AZULEJO_BOUNDARY_BOUNDED);
     refused();

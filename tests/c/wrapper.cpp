@@ -468,6 +468,8 @@ void volumes() {
     CHECK(throws(AZULEJO_ERROR_CANCELLED, "cancelled", [&] { azulejo::volume_sample(context, options); }));
     options.radius = -1;
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius: -1", [&] { azulejo::volume_sample(context, options); }));
+    options.leaf_size = 5;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "leaf_size: 5", [&] { azulejo::volume_sample(context, options); }));
 }
 
 void insides() {

@@ -29,6 +29,11 @@ pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
         let radius = if is_small { 3.0 * radius } else { radius };
         list.samples(name, &sample(context, &Options::new(radius).domain(domain).seed(seed), None)?.0);
     }
+    // Smaller ones would not be tiled.
+    for (place, boundary) in [("torus", Boundary::Periodic), ("cube", Boundary::Bounded)] {
+        let options = Options::new(0.0288).domain(Domain::unit(boundary)).seed(87).leaf_size(7.0);
+        list.samples(&format!("volume {place}, tiled"), &sample(context, &options, None)?.0);
+    }
     let radius = if is_small { 0.1 } else { 0.04 };
     let positions: Vec<[f32; 3]> =
         (0..60u8).map(|i| [31, 47, 83].map(|step| f32::from(i.wrapping_mul(step)) / 256.0)).collect();

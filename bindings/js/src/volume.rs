@@ -19,6 +19,7 @@ pub struct VolumeOptions {
     bounded: f64,
     progressive: f64,
     quotient: f64,
+    leaf_size: f64,
 }
 
 /// The samples, their ranks, the radius and a bound of the covering radius.
@@ -36,7 +37,7 @@ pub unsafe extern "C" fn azulejo_volume_sample(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
-    let &VolumeOptions { radius, count, min, max, bounded, progressive, quotient } = options;
+    let &VolumeOptions { radius, count, min, max, bounded, progressive, quotient, leaf_size } = options;
     call(|context, progress| {
         let boundary = if bounded == 0.0 { Boundary::Periodic } else { Boundary::Bounded };
         let amount = if count > 0.0 { Amount::Count(count as usize) } else { Amount::Radius(radius) };
@@ -45,7 +46,8 @@ pub unsafe extern "C" fn azulejo_volume_sample(
             .seed(seed)
             .order(order((progressive != 0.0).into()))
             .quotient(quotient)
-            .given(given);
+            .given(given)
+            .leaf_size(leaf_size);
         let (samples, report) = sample(context, &options, progress)?;
         let report = vec![report.radius, report.covering_radius];
         Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))

@@ -39,6 +39,16 @@ test("sets of a cuboid are measured", () => {
     }
 });
 
+test("cuboids are tiled", () => {
+    const { positions } = azulejo.volumeSample({ radius: 0.0288, leafSize: 6 });
+    const share = positions.length / azulejo.volumeSample({ radius: 0.0288 }).positions.length;
+    assert.ok(share > 1.005 && share < 1.06, share);
+    const { conflicts, gaps } = azulejo.spaceMeasure(positions, { radius: 0.0288 });
+    assert.deepEqual([conflicts, gaps], [0, 0]);
+    assert.throws(() => azulejo.volumeSample({ radius: 0.1, leafSize: 5 }), /leafSize: 5/);
+    assert.throws(() => azulejo.volumeSample({ count: 10, leafSize: 20 }), /leafSize: 20/);
+});
+
 test("points of a cuboid are relaxed", () => {
     const start = azulejo.volumeSample({ count: 400 }).positions;
     for (const [boundary, wrap] of [["periodic", wrapped], ["bounded", (d) => d]]) {

@@ -3,7 +3,9 @@
 use azulejo_core::volume::{self, Options};
 use pyo3::prelude::*;
 
-use crate::argument::{amount, amount_of, callable, maybe_real, maybe_triple, natural, number, one_of, order, whole};
+use crate::argument::{
+    amount, amount_of, callable, maybe_real, maybe_triple, natural, number, one_of, order, real, whole,
+};
 use crate::array::GivenArrays;
 use crate::frame::Frame;
 use crate::points::Points;
@@ -45,6 +47,8 @@ impl From<volume::Report> for VolumeReport {
 /// given_positions: float32, shape (m, 3): samples that stay and are not returned.
 /// given_clearances: float64, shape (m,): how far new samples are from each at least; default: the radius. Needed with a
 ///     count.
+/// leaf_size: in radii, at least 6: the set is tiled by copies of a small one, which is faster with leaves of 20 radii and
+///     more. Default 0: it is not. Neither with a count nor in progressive order.
 /// threads: 0 for one per core. The samples do not depend on it.
 /// progress: called with the fraction that is done, from 0 to 1; if it returns False the call raises Cancelled.
 ///
@@ -52,7 +56,7 @@ impl From<volume::Report> for VolumeReport {
 #[pyfunction]
 #[pyo3(signature = (
     radius=0.0, *, count=0, domain_min=None, domain_max=None, boundary="periodic", seed=0, order="any", quotient=None,
-    given_positions=None, given_clearances=None, threads=0, progress=None
+    given_positions=None, given_clearances=None, leaf_size=0.0, threads=0, progress=None
 ))]
 pub(crate) fn volume_sample(
     py: Python<'_>,
@@ -66,6 +70,7 @@ pub(crate) fn volume_sample(
     #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
     given_positions: Option<&Bound<'_, PyAny>>,
     given_clearances: Option<&Bound<'_, PyAny>>,
+    #[pyo3(from_py_with = real::leaf_size)] leaf_size: f64,
     #[pyo3(from_py_with = whole::threads)] threads: i128,
     #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
@@ -78,7 +83,8 @@ pub(crate) fn volume_sample(
         .seed(natural("seed", seed)?)
         .order(self::order(order, &[("quotient", quotient)])?)
         .quotient(quotient.unwrap_or(request.quotient))
-        .given(given.samples()?);
+        .given(given.samples()?)
+        .leaf_size(leaf_size);
     let (samples, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| volume::sample(context, &request, progress))?;
     Points::cuboid(py, samples, &frame)?.with_report(py, VolumeReport::from(report))

@@ -36,6 +36,13 @@ def test_a_set_is_conflict_free_and_maximal():
         assert (points.domain_min, points.domain_max, points.boundary) == ([0.0] * 3, [1.0] * 3, "periodic")
 
 
+def test_a_tiled_set():
+    points = azulejo.volume_sample(0.0288, leaf_size=6.0)
+    assert 1.005 < len(points) / len(azulejo.volume_sample(0.0288)) < 1.06
+    measured = azulejo.space_measure(points, radius=0.0288)
+    assert measured.conflicts == 0 and measured.covering_radius <= 0.0288 + 1e-6
+
+
 def test_a_gap_would_be_noticed():
     positions = np.delete(azulejo.volume_sample(0.15).positions, 17, axis=0)
     assert farthest(places([0] * 3, [1] * 3), positions, period=1.0) > 0.15 + 1e-6
@@ -127,6 +134,8 @@ def test_refusals_name_the_argument():
         (dict(count=10, given_positions=[[0.5, 0.5, 0.5]]), "given_clearances"),
         (dict(radius=0.1, given_positions=[[0.5, 0.5]]), "given_positions"),
         (dict(radius=0.1, seed=-1), "seed"),
+        (dict(radius=0.1, leaf_size=5.0), "leaf_size"),
+        (dict(count=10, leaf_size=20.0), "leaf_size"),
     ]:
         with pytest.raises(ValueError, match=f"^{name}: "):
             azulejo.volume_sample(**arguments)

@@ -65,6 +65,10 @@ pub struct Volume {
     /// The clearance of all points of `--given`, in place of the columns of their file.
     #[arg(long, value_name = "C", requires = "given", allow_negative_numbers = true)]
     clearance: Option<f64>,
+    /// Tiles the cuboid by copies of a small set, in leaves whose sides are at least this many radii, 6 or more: faster from
+    /// about 20 on, and up to 1 % denser. 0: not tiled. It takes a radius, and any order.
+    #[arg(long, value_name = "L", default_value_t = 0.0, conflicts_with = "inside", allow_negative_numbers = true)]
+    leaf_size: f64,
 }
 
 /// The samples, their domain, and what is reported about them.
@@ -111,7 +115,8 @@ impl Volume {
             .seed(self.common.seed)
             .order(self.order.into())
             .quotient(self.quotient.unwrap_or(options.quotient))
-            .given(around.given());
+            .given(around.given())
+            .leaf_size(self.leaf_size);
         let (samples, done) = watched("volume", |progress| sample(context, &options, Some(progress)))?;
         let (radii, about) = ([done.radius, done.covering_radius], Report::default());
         Ok(Made { samples, domain, radii, about, seconds: done.seconds })
