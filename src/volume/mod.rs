@@ -19,6 +19,7 @@ mod ranks;
 mod search;
 mod set;
 mod shape;
+mod shell;
 mod solid;
 mod space;
 mod voxels;
