@@ -490,6 +490,8 @@ export interface VolumeInsideOptions extends Given, Ordering, Watched {
     surface?: "open" | "first";
     /** Places may stay open nearer to the surface than sqrt(3) times this many radii: 1/256 to 1/2; default 0.0625. */
     tolerance?: number;
+    /** Only places that are no farther from the surface than this: at least 1/256 radius. Default 0: all of the inside. */
+    thickness?: number;
     /** Another seed gives another set. Default 0. */
     seed?: Seed;
 }

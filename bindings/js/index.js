@@ -81,7 +81,7 @@ const GROWING = { ...GIVEN, ...PROJECTION, radius: 0, seed: 0, cosine: -1 };
 const REGION = { centre: null, radius: null, min: null, max: null };
 const VOLUME = { ...CUBOID, ...GIVEN, ...ORDERING, radius: 0, count: 0, seed: 0, leafSize: 0 };
 const SPACE = { ...CUBOID, radius: 0 };
-const INSIDE = { ...WATCHED, ...GIVEN, ...ORDERING, radius: 0, count: 0, surface: "open", tolerance: 0.0625, seed: 0 };
+const INSIDE = { ...WATCHED, ...GIVEN, ...ORDERING, radius: 0, count: 0, surface: "open", tolerance: 0.0625, thickness: 0, seed: 0 };
 const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
 const MERGE = { ...DOMAIN, radius: 0, seed: 0, maximalPieces: false };
 const PIECE = { positions: null, min: [0, 0], max: [1, 1] };
@@ -558,10 +558,10 @@ export function volumeSample(options) {
 export function volumeSampleInside(mesh, options) {
     options = withDefaults(INSIDE, options);
     return calling((call) => {
-        const { radius, count, surface, tolerance, order, quotient } = options;
+        const { radius, count, surface, tolerance, order, quotient, thickness } = options;
         const numbers = [
             ...amount(radius, count), constant("surface", surface, SURFACES), tolerance, constant("order", order, ORDERS),
-            quotient,
+            quotient, thickness,
         ];
         const place = call.options(numbers);
         const types = [Float32Array, Float32Array, Float64Array];

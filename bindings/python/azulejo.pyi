@@ -537,6 +537,7 @@ def volume_sample_inside(
     count: Optional[SupportsIndex] = 0,
     surface: Literal["open", "first"] = "open",
     tolerance: SupportsFloat = 0.0625,
+    thickness: SupportsFloat = 0.0,
     seed: SupportsIndex = 0,
     order: _Order = "any",
     quotient: Optional[SupportsFloat] = None,

@@ -203,6 +203,7 @@ fn volume_fills_the_inside_of_a_mesh() {
         (&[][..], free),
         (&["--surface-first"], free.surface(Surface::First)),
         (&["--tolerance", "0.01"], free.tolerance(0.01)),
+        (&["--thickness", "0.15"], free.thickness(0.15)),
     ] {
         let all =
             [&["volume", "--inside", "solid.obj", "--radius", "0.2", "--seed", "3", "-o", "a.ply"], arguments].concat();
@@ -289,6 +290,7 @@ fn volume_refuses_what_it_cannot_make() {
         (&["--radius", "0.1", "--inside", "open.obj", "--bounded"], 2, "error: "),
         (&["--count", "9", "--inside", "open.obj", "--surface-first"], 2, "error: "),
         (&["--radius", "0.1", "--tolerance", "0.1"], 2, "error: "),
+        (&["--radius", "0.1", "--thickness", "0.1"], 2, "error: "),
         (&[], 2, "error: "),
     ] {
         let said = workshop.refuse(&[&["volume", "-o", "a.ply"], arguments].concat(), code);

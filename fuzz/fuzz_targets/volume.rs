@@ -137,6 +137,7 @@ fn inside(input: &mut Input, patience: &Patience) {
         given_positions: centres.as_ptr().cast(),
         given_clearances: clearances.as_ptr(),
         given_count: given.len(),
+        thickness: if input.one_in(2) { radius * input.number() } else { 0.0 },
         ..report(azulejo_volume_inside_options_init)
     };
     let mut done = report(azulejo_volume_inside_report_init);

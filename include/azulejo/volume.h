@@ -111,6 +111,7 @@ typedef struct azulejo_volume_inside_options {
     /// The clearance of each, 0 or more. Default NULL: the radius, which with a `count` is refused.
     const double *given_clearances;
     size_t given_count; ///< Their number; default 0.
+    double thickness; ///< Only places this near the surface, at least 1/256 radius; default 0: all.
 } azulejo_volume_inside_options;
 
 /// The report of azulejo_volume_sample_inside.
@@ -123,7 +124,7 @@ typedef struct azulejo_volume_inside_report {
     /// No place inside that is deeper than `depth` is farther from all samples and outside of all
     /// given ones: the radius, with a count mostly up to 1.1 times it.
     double covering_radius;
-    double depth; ///< The greatest distance from the surface at which places inside can be open.
+    double depth; ///< Places this near to the surface, or a shell's inner border, can be open.
     double seconds; ///< Wall time in seconds.
 } azulejo_volume_inside_report;
 

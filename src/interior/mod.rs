@@ -99,6 +99,12 @@ impl Interior {
         self.tree.nearest(place, within)
     }
 
+    /// A place of the surface and the square of its distance from another, if that is at most the square of `far`: the nearest
+    /// place, or any whose square is at most that of `near`. The square is, to the bit, the one that all triangles give.
+    pub(crate) fn nearest_in_band(&self, place: [f64; 3], band: [f64; 2]) -> Option<([f64; 3], f64)> {
+        self.tree.nearest_in_band(place, band)
+    }
+
     /// Visits the corners of the triangles whose boxes touch a box.
     pub(crate) fn for_each_near(&self, around: [[f32; 3]; 2], mut triangle: impl FnMut(&[[f32; 3]; 3])) {
         self.tree.for_each_near(around, |number| triangle(&self.tree.corners[number]));

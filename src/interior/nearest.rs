@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::interior::tree::Tree;
+use crate::interior::tree::{Tree, hull};
 use crate::math::square;
 
 impl Tree {
@@ -21,6 +21,33 @@ impl Tree {
         });
         found.map(|foot| (foot, least))
     }
+
+    /// A place of the triangles and the square of its distance from another place, if that is at most the square of `far`: the
+    /// nearest, or the first one found whose square is at most that of `near`.
+    ///
+    /// The square is, to the bit, that of a search in all triangles: each place is moved into the box around its triangle, so that
+    /// it is no nearer, in `f64`, than the boxes by which the tree leaves triangles out.
+    pub fn nearest_in_band(&self, place: [f64; 3], [near, far]: [f64; 2]) -> Option<([f64; 3], f64)> {
+        let enough = if near < 0.0 { -1.0 } else { square(near) };
+        let (mut least, mut found) = (square(far), None);
+        self.for_each_nearest(place, least, |triangle| {
+            let (foot, squared) = boxed_foot(place, &self.corners[triangle]);
+            if squared <= least {
+                (least, found) = (squared, Some((foot, squared)));
+            }
+            // Below any square: no box is visited any more.
+            if found.is_some() && least <= enough { -1.0 } else { least }
+        });
+        found
+    }
+}
+
+/// The place of a triangle that is nearest to another, moved into the box around the triangle, and the square of its distance.
+fn boxed_foot(place: [f64; 3], corners: &[[f32; 3]; 3]) -> ([f64; 3], f64) {
+    let vector = |corner: [f32; 3]| DVec3::from_array(corner.map(f64::from));
+    let [low, high] = hull(corners).map(vector);
+    let foot = foot(place.into(), corners.map(vector)).clamp(low, high);
+    (foot.to_array(), foot.distance_squared(place.into()))
 }
 
 /// The place of a triangle that is nearest to another: the foot of the perpendicular, if that is in the triangle, else the nearest
@@ -92,6 +119,48 @@ mod tests {
                 assert_eq!(tree.nearest(place, least + 1e-4), Some((foot, squared)));
                 assert!(least < 1e-4 || tree.nearest(place, least - 1e-4).is_none());
             }
+        }
+    }
+
+    #[test]
+    fn a_band_is_that_of_all_triangles_to_the_bit() {
+        for count in [1, 9, 70, 600] {
+            let triangles = soup(count, count as u64);
+            let (tree, _) = Tree::new(&triangles);
+            let mut rng = Rng::at(5, Draw::Probe, &[]);
+            let mut seen = [0; 3];
+            for probe in 0..400 {
+                let mut place = [0; 3].map(|_: i32| 1.4 * rng.unit() - 0.2);
+                if probe % 5 == 0 {
+                    place = triangles[probe % count][probe % 3].map(f64::from);
+                }
+                let least = triangles.iter().map(|t| boxed_foot(place, t).1).fold(f64::INFINITY, f64::min);
+                // A distance that is met exactly is not beyond.
+                let exact = least.sqrt();
+                let exact = if square(exact) < least { exact.next_up() } else { exact };
+                let found = |near: f64, far: f64| tree.nearest_in_band(place, [near, far]).map(|(_, squared)| squared);
+                assert_eq!(found(-1.0, exact), Some(least));
+                assert!(found(exact, exact).is_some_and(|squared| squared <= square(exact)));
+                let below = exact.next_down();
+                assert!(exact == 0.0 || found(below, below).is_some() == (square(below) >= least));
+                let [near, far] = [0.1 * rng.unit(), 0.1 + 0.2 * rng.unit()];
+                let number = match found(near, far) {
+                    None => {
+                        assert!(least > square(far));
+                        0
+                    }
+                    Some(squared) if squared <= square(near) => {
+                        assert!(least <= squared);
+                        1
+                    }
+                    Some(squared) => {
+                        assert_eq!(squared, least);
+                        2
+                    }
+                };
+                seen[number] += 1;
+            }
+            assert!(count != 9 || seen.iter().all(|&count| count > 10), "{seen:?}");
         }
     }
 }

@@ -3,13 +3,22 @@
 use std::sync::Arc;
 
 use crate::interior::Interior;
+use crate::math::hypot;
 use crate::mesh::Mesh;
 use crate::plane::float_spacing;
 use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE};
 use crate::volume::inside::Solid;
+use crate::volume::shell::{self, Thickness};
 
 /// The probes along an axis of the box around a mesh by which its volume is estimated.
 const PROBES: u32 = 16;
+
+/// No place inside is farther from the surface than half the smallest side of the box around the mesh: a shell of this share of the
+/// side is all of the inside.
+const ALL: f64 = 0.501;
+
+/// The probes in a shell from which on they estimate its volume.
+const ENOUGH: usize = 200;
 
 /// The radii by which a body has as many samples as one that is larger all around and has no boundary.
 const BEYOND: f64 = 0.35;
@@ -33,27 +42,42 @@ fn bounds(mesh: &Mesh) -> Domain<3> {
 pub struct Body {
     interior: Arc<Interior>,
     tolerance: f64,
+    thickness: Option<Thickness>,
     /// The box around it.
     pub domain: Domain<3>,
     volume: f64,
+    /// That of the surface, and once more if there is an inner border.
     area: f64,
     /// An estimate of the memory of its inside.
     pub bytes: f64,
 }
 
 impl Body {
-    /// The inside of a mesh up to a tolerance, in radii.
-    pub fn new(mesh: &Mesh, tolerance: f64) -> Self {
+    /// The inside of a mesh up to a tolerance, in radii: all of it, or a shell of a thickness above 0.
+    pub fn new(mesh: &Mesh, tolerance: f64, thickness: f64) -> Self {
         let (interior, domain) = (Interior::of(mesh), bounds(mesh));
+        let [x, y, z] = domain.extent();
+        let is_shell = 0.0 < thickness && thickness < ALL * x.min(y).min(z);
+        let thickness =
+            is_shell.then(|| Thickness { distance: thickness, error: shell::ERROR * hypot(hypot(x, y), z) });
         let place = |axis: usize, number: u32| {
             (domain.min[axis] + domain.extent()[axis] * (f64::from(number) + 0.5) / f64::from(PROBES)) as f32
         };
         let probe = |k: u32| [place(0, k % PROBES), place(1, k / PROBES % PROBES), place(2, k / PROBES / PROBES)];
         let count = PROBES * PROBES * PROBES;
-        let inside = (0..count).filter(|&number| interior.contains(probe(number))).count();
-        let volume = domain.extent().iter().product::<f64>() * inside as f64 / f64::from(count);
+        let inside: Vec<u32> = (0..count).filter(|&number| interior.contains(probe(number))).collect();
+        let of_probes = |probes: usize| x * y * z * probes as f64 / f64::from(count);
+        let (mut volume, mut area) = (of_probes(inside.len()), mesh.area());
+        if let Some(thickness) = thickness {
+            let is_near = |&&number: &&u32| thickness.holds(&interior, probe(number));
+            let near = inside.iter().filter(is_near).count();
+            if near < inside.len() {
+                volume = if near < ENOUGH { volume.min(area * thickness.distance) } else { of_probes(near) };
+                area *= 2.0;
+            }
+        }
         let bytes = BYTES_PER_TRIANGLE * mesh.triangles().len() as f64;
-        Self { interior, tolerance, domain, volume, area: mesh.area(), bytes }
+        Self { interior, tolerance, thickness, domain, volume, area, bytes }
     }
 
     /// True if the triangles of the mesh cancel out.
@@ -67,18 +91,43 @@ impl Body {
     }
 
     pub fn solid(&self) -> Solid<'_> {
-        Solid { interior: &self.interior, tolerance: self.tolerance }
+        Solid { interior: &self.interior, tolerance: self.tolerance, thickness: self.thickness }
     }
 
     /// The depth of places that a set with this covering radius may leave open.
     pub fn depth(&self, covering_radius: f64) -> f64 {
         let spacing = float_spacing(self.domain.min.iter().chain(&self.domain.max));
-        3f64.sqrt() * (1.001 * self.tolerance * covering_radius + 4.0 * spacing)
+        let side = self.solid().tolerance_of(covering_radius) * covering_radius;
+        // The error of two distances, by which a box is known to reach the inner border.
+        let error = self.thickness.map_or(0.0, |thickness| 2.0 * thickness.error);
+        3f64.sqrt() * (1.001 * side + 4.0 * spacing) + error
     }
 
     /// The approximate number of samples; at least one.
     pub fn expected_samples(&self, radius: f64) -> f64 {
         let [area, depth] = [self.area / radius / radius, BEYOND];
         (MAXIMAL_DENSITY_IN_SPACE * (self.volume / radius / radius / radius + depth * area)).max(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::Context;
+    use crate::volume::{InsideOptions, sample_inside};
+
+    /// The memory and the first radius of a count are estimated by it. Planes of probes blur the inner border of a cube's shell.
+    #[test]
+    fn the_number_of_samples_is_about_the_expected_one() {
+        let positions = (0..8).map(|k| [(k & 1) as f32, (k >> 1 & 1) as f32, (k >> 2) as f32]).collect();
+        let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = squares.iter().flat_map(|&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]]).collect();
+        let mesh = Arc::new(Mesh::new(positions, triangles).unwrap());
+        for (thickness, error) in [(0.0, 0.03), (0.3, 0.1), (0.1, 0.3), (0.03, 0.5), (0.001, 0.5)] {
+            let options = InsideOptions::new(0.04).thickness(thickness);
+            let found = sample_inside(&Context::new(1).unwrap(), &mesh, &options, None).unwrap().0.len() as f64;
+            let expected = Body::new(&mesh, 1.0 / 16.0, thickness).expected_samples(0.04);
+            assert!((expected / found - 1.0).abs() < error, "{thickness}: {expected} of {found}");
+        }
     }
 }

@@ -21,6 +21,7 @@ use crate::simd::Lanes;
 use crate::volume::grid::Grid;
 use crate::volume::search::Centre;
 use crate::volume::shape::{Shape, Voxels};
+use crate::volume::shell::{Share, Shell, Thickness};
 use crate::volume::voxels::{Level, Voxel, VoxelBox};
 
 /// The error of coordinates in a block, in radii.
@@ -72,10 +73,15 @@ pub struct Solid<'a> {
     pub interior: &'a Interior,
     /// The largest side of cut voxels that are dropped, in radii.
     pub tolerance: f64,
+    /// None of all of the inside.
+    pub thickness: Option<Thickness>,
 }
 
-/// The smallest tolerance that [`Solid::refine`] makes.
+/// The smallest tolerance that [`Solid::refine`] makes, or a thin shell.
 const FINEST: f64 = 1.0 / 1024.0;
+
+/// The largest side of cut voxels that are dropped, in thicknesses of a shell.
+const OF_SHELL: f64 = 0.25;
 
 impl<'a> Solid<'a> {
     /// Makes the tolerance smaller, if it is not very small.
@@ -84,13 +90,21 @@ impl<'a> Solid<'a> {
         self.tolerance > FINEST
     }
 
+    /// The largest side of cut voxels that are dropped for a radius, in radii.
+    pub fn tolerance_of(&self, radius: f64) -> f64 {
+        let of_shell = self.thickness.map(|thickness| (OF_SHELL * thickness.distance / radius).max(FINEST));
+        of_shell.map_or(self.tolerance, |of_shell| self.tolerance.min(of_shell))
+    }
+
     /// Its part in a region of lattice points.
     pub fn within(&self, lattice: &'a Lattice<3>, region: Rect<3>) -> Inside<'a> {
         let (triangles, met, known) = Default::default();
         let margin = (Grid::margin(lattice.radius) / lattice.radius + ERROR) as f32;
-        let tolerance = self.tolerance as f32;
+        let tolerance = self.tolerance_of(lattice.radius * lattice.unit()) as f32;
+        let shell = self.thickness.map(|thickness| Shell::new(self.interior, thickness, lattice, &region, margin));
         let half = std::array::from_fn(|axis| 0.5 * f64::from(region.length(axis)) / lattice.radius);
-        Inside { interior: self.interior, lattice, tolerance, region, half, side: half, margin, triangles, met, known }
+        let interior = self.interior;
+        Inside { interior, lattice, tolerance, shell, region, half, side: half, margin, triangles, met, known }
     }
 }
 
@@ -100,6 +114,8 @@ pub struct Inside<'a> {
     lattice: &'a Lattice<3>,
     /// The largest side of cut voxels that are dropped, in radii.
     tolerance: f32,
+    /// None of all of the inside.
+    shell: Option<Shell<'a>>,
     region: Rect<3>,
     /// Half the sides of the region and the sides of a cell, in radii.
     half: [f64; 3],
@@ -264,6 +280,10 @@ impl Shape for Inside<'_> {
     fn cells<L: Lanes>(&mut self, _: L, grid: &Grid, open: Vec<Voxel>) -> Voxels {
         let (cells, counts) = (grid.cells(), grid.counts());
         self.side = std::array::from_fn(|axis| 2.0 * self.half[axis] / counts[axis] as f64);
+        let shares = self.shell.as_ref().map(|shell| shell.cells(grid, self.side, self.half));
+        if shares.as_ref().is_some_and(|shares| shares.iter().all(|&share| share == Share::None)) {
+            return Voxels::default();
+        }
         self.gather();
         self.known = vec![[0; 2]; cells];
         self.bin(grid);
@@ -271,9 +291,10 @@ impl Shape for Inside<'_> {
         self.flood_cells(grid);
         for voxel in open {
             let cell = voxel.cell as usize;
-            if self.known[cell][0] == u64::MAX {
+            let share = shares.as_ref().map_or(Share::All, |shares| shares[cell]);
+            if share == Share::All && self.known[cell][0] == u64::MAX {
                 voxels.inside.push(voxel);
-            } else if self.known[cell][1] != u64::MAX {
+            } else if share != Share::None && self.known[cell][1] != u64::MAX {
                 voxels.cut.push(voxel);
             }
         }
@@ -285,17 +306,24 @@ impl Shape for Inside<'_> {
         let cell = voxel.cell as usize;
         let (from_cell, in_cell) = (self.cell_centre(grid, cell), VoxelBox::new(level, voxel).centre);
         let centre = [from_cell[0] + in_cell[0], from_cell[1] + in_cell[1], from_cell[2] + in_cell[2]];
+        let part = part_of_cell(level, voxel);
+        let [x, y, z] = level.part_halves;
+        let side = 2.0 * x.max(y).max(z);
+        let small = side <= self.tolerance;
+        if let Some(shell) = &self.shell {
+            let [inside, _] = self.known[cell];
+            // Only the inner border of the shell cuts it.
+            if inside == u64::MAX || part.is_some_and(|part| inside >> part & 1 == 1) {
+                return shell.parts(level, centre, open, small);
+            }
+        }
         let of_cell = level.counts == [1; 3];
         let is_divided = level.all == u64::MAX;
         let parts = Parts::new(lanes, level, centre, self.margin);
         if of_cell && is_divided {
             self.find_parts(lanes, &parts, cell);
         }
-        let part = part_of_cell(level, voxel);
         let mut cut = self.near_parts(lanes, &parts, cell, part);
-        let [x, y, z] = level.part_halves;
-        let side = 2.0 * x.max(y).max(z);
-        let small = side <= self.tolerance;
         // What is not divided any more is dropped: only where a triangle meets it.
         if small || f64::from(side) * self.lattice.radius < LAST {
             cut = cut & !open | self.met_parts(lanes, &parts, cell, part, cut & open);
@@ -314,11 +342,19 @@ impl Shape for Inside<'_> {
         if of_cell && is_divided {
             self.known[cell] = [inside, outside];
         }
-        [inside & open, if small { 0 } else { cut & open }]
+        let [inside, cut] = [inside & open, if small { 0 } else { cut & open }];
+        match &self.shell {
+            Some(shell) if inside | cut != 0 => {
+                let [whole, partly] = shell.parts(level, centre, inside | cut, small);
+                [inside & whole, inside & partly | cut & (whole | partly)]
+            }
+            _ => [inside, cut],
+        }
     }
 
     fn holds(&self, point: Centre) -> bool {
-        self.interior.contains(self.lattice.position(point))
+        let position = self.lattice.position(point);
+        self.shell.as_ref().is_none_or(|shell| shell.holds(position)) && self.interior.contains(position)
     }
 }
 

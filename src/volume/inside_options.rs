@@ -12,6 +12,9 @@ use crate::volume::Options;
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1.0 / 256.0..=0.5;
 const DEFAULT_TOLERANCE: f64 = 1.0 / 16.0;
 
+/// The least thickness of a shell, in radii.
+const THINNEST: f64 = 1.0 / 256.0;
+
 /// The samples on the surface of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Surface {
@@ -35,6 +38,10 @@ pub struct InsideOptions<'a> {
     /// The side, in radii, of the voxels at the surface that may stay open: 1/256 to 1/2, by default 1/16. A quarter of it takes
     /// about one and a half times as long. See [`sample_inside`](super::sample_inside).
     pub tolerance: f64,
+    /// If above 0, the domain is a shell: the places inside that are no farther from the surface than this, in the units of the mesh.
+    /// At least 1/256 of a radius; by default 0: all of the inside, as from .501 times the smallest side of the box around the mesh on.
+    /// See [`sample_inside`](super::sample_inside).
+    pub thickness: f64,
     /// The same options and seed give the same samples.
     pub seed: u64,
     /// See [`Options::order`].
@@ -59,16 +66,28 @@ impl InsideOptions<'_> {
     /// [`InsideOptions::new`] or [`InsideOptions::by_count`].
     pub fn of(amount: Amount) -> Self {
         let Options { seed, order, quotient, given, .. } = Options::of(amount);
-        Self { amount, surface: Surface::Open, tolerance: DEFAULT_TOLERANCE, seed, order, quotient, given }
+        let (surface, tolerance, thickness) = (Surface::Open, DEFAULT_TOLERANCE, 0.0);
+        Self { amount, surface, tolerance, thickness, seed, order, quotient, given }
     }
 
-    /// Refuses a tolerance, given samples and a radius out of range.
+    /// Refuses a tolerance, a thickness, given samples and a radius out of range.
     pub(super) fn check(&self) -> Result<()> {
         if !TOLERANCES.contains(&self.tolerance) {
             return Err(Error::invalid("tolerance", format!("{:?} is not from 1/256 to 1/2", self.tolerance)));
         }
+        let thickness = self.thickness;
+        if !(0.0..f64::INFINITY).contains(&thickness) {
+            return Err(Error::invalid("thickness", format!("{thickness:?} is not finite and at least 0")));
+        }
         self.given.check()?;
-        if let Amount::Radius(radius) = self.amount { check_radius(radius) } else { Ok(()) }
+        let Amount::Radius(radius) = self.amount else { return Ok(()) };
+        check_radius(radius)?;
+        if thickness > 0.0 && thickness < THINNEST * radius {
+            let reason =
+                format!("{thickness:?} is neither 0 nor at least 1/256 of the radius, {:?}", THINNEST * radius);
+            return Err(Error::invalid("thickness", reason));
+        }
+        Ok(())
     }
 
     /// The radius of the set of the surface, if that comes first.
@@ -82,5 +101,5 @@ impl InsideOptions<'_> {
 }
 
 setters!(InsideOptions<'a> {
-    surface: Surface, tolerance: f64, seed: u64, order: Order, quotient: f64, given: Given<'a, 3>,
+    surface: Surface, tolerance: f64, thickness: f64, seed: u64, order: Order, quotient: f64, given: Given<'a, 3>,
 });

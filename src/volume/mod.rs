@@ -24,6 +24,7 @@ mod ranks;
 mod search;
 mod set;
 mod shape;
+mod shell;
 mod solid;
 mod space;
 mod tiling;

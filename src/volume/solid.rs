@@ -22,10 +22,11 @@ const OF_SURFACE: f64 = 0.2;
 pub struct InsideReport {
     /// No two samples are nearer: the radius of the options, or that of the set of a count.
     pub radius: f64,
-    /// No place inside that is deeper than `depth` is farther from all samples, and outside of all given ones, up to the tolerance
+    /// No place inside that is deeper than `depth`, and in a shell less deep than its thickness by more than that, is farther from all samples, and outside of all given ones, up to the tolerance
     /// of [`sample`](super::sample): the radius, or of a count up to 1.1 times it, in progressive order the quotient times it.
     pub covering_radius: f64,
-    /// The greatest depth at which places can be open: sqrt(3) times the tolerance and a few float spacings.
+    /// The greatest depth at which places can be open: sqrt(3) times the tolerance and a few float spacings. In a shell, whose tolerance
+    /// is a quarter of the thickness at most, also the greatest distance from its inner border.
     pub depth: f64,
     /// The number of samples of the surface, which come first.
     pub surface_samples: usize,
@@ -39,6 +40,12 @@ pub struct InsideReport {
 /// * Conflict-free: all distances of the returned floats are at least `radius`, in `f64`, without tolerance.
 /// * Maximal: no place inside is farther than `radius` + 7 float spacings at the mesh's largest coordinate from all samples, unless
 ///   it is nearer to the surface than the report's `depth`.
+///
+/// With a [thickness](InsideOptions::thickness) the domain is the shell of the inside along the surface. The square of the distance of each
+/// sample from the nearest triangle is, computed in `f64` from the returned floats, at most that of the thickness; samples of the
+/// surface lie on it up to rounding. Places may also stay open that are nearer to the inner border than `depth`. The tolerance is a quarter
+/// of the thickness at most, but no less than 1/1024 radius: for a count that is so small that `depth` is half the thickness or more,
+/// nothing is promised to be covered.
 ///
 /// About [`MAXIMAL_DENSITY_IN_SPACE`](crate::MAXIMAL_DENSITY_IN_SPACE) samples per cubed radius, and more beside the surface. All else is as for
 /// [`sample`](super::sample): order, count, ranks, given samples. The prefix of a progressive set leaves places open at the surface
@@ -59,7 +66,7 @@ pub fn sample_inside(
     let stopwatch = Stopwatch::start();
     options.check()?;
     check_closed(mesh)?;
-    let body = Body::new(mesh, options.tolerance);
+    let body = Body::new(mesh, options.tolerance, options.thickness);
     if body.encloses_nothing() {
         return Err(encloses_nothing());
     }

@@ -638,6 +638,9 @@ const VOLUME: &[Call] = &[
             ("tolerance: ", |c, p| {
                 said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
             }),
+            ("thickness: ", |c, p| {
+                said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).thickness(-1.0), p))
+            }),
         ],
     },
     Call {

@@ -71,3 +71,4 @@ mod volume;
 mod volume_given;
 mod volume_inside;
 mod volume_order;
+mod volume_shell;

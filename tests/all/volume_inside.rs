@@ -11,7 +11,7 @@ use crate::common::meshes::{self, Soup};
 use crate::common::random::Random;
 use crate::common::volume_oracle::{conflict, distance, sample_in_ball};
 
-fn made(mesh: &Arc<Mesh>, options: &InsideOptions) -> (Points<3>, InsideReport) {
+pub fn made(mesh: &Arc<Mesh>, options: &InsideOptions) -> (Points<3>, InsideReport) {
     sample_inside(&Context::new(1).unwrap(), mesh, options, None).unwrap()
 }
 
@@ -19,7 +19,7 @@ pub fn mesh((positions, triangles): Soup) -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, triangles).unwrap())
 }
 
-fn space(mesh: &Mesh) -> Domain<3> {
+pub fn space(mesh: &Mesh) -> Domain<3> {
     let (min, max) = mesh.bounds();
     Domain { min: min.map(f64::from), max: max.map(|x| f64::from(x) + 1e-3), boundary: Boundary::Bounded }
 }
@@ -55,14 +55,14 @@ pub fn depth(triangles: &[[[f64; 3]; 3]], point: [f64; 3]) -> f64 {
     triangles.iter().map(|&triangle| distance_from_triangle(point, triangle)).fold(f64::INFINITY, f64::min)
 }
 
-/// A place inside that is deeper than `depth` and lies in no ball, by halving boxes until each lies in a ball, near to the
+/// A place inside that is deeper than `depth`, less deep than `end`, and lies in no ball, by halving boxes until each lies in a ball, near to the
 /// surface, outside, or is smaller than `finest`. Triangles are those that may be the nearest one of a point of the box.
 fn gap(
     mesh: &Mesh,
     triangles: &[[[f64; 3]; 3]],
     balls: &[([f64; 3], f64)],
     [min, max]: [[f64; 3]; 2],
-    [depth, finest]: [f64; 2],
+    [depth, end, finest]: [f64; 3],
 ) -> Option<[f64; 3]> {
     let length = |vector: [f64; 3]| vector.iter().map(|x| x * x).sum::<f64>().sqrt();
     let centre = [0, 1, 2].map(|k: usize| 0.5 * (min[k] + max[k]));
@@ -75,10 +75,11 @@ fn gap(
     let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
     // A box beside the surface lies on one side of it, as far as its centre's float does.
     let is_inside = || mesh.contains(centre.map(|x| x as f32));
-    if nearest + half <= depth || half < finest || nearest > half + 1e-6 && !is_inside() {
+    if nearest + half <= depth || nearest - half >= end || half < finest || nearest > half + 1e-6 && !is_inside() {
         return None;
     }
-    if nearest > depth + 1e-6 && balls.iter().all(|&(ball, radius)| from_centre(ball) > radius) && is_inside() {
+    let is_between = nearest > depth + 1e-6 && nearest < end - 1e-6;
+    if is_between && balls.iter().all(|&(ball, radius)| from_centre(ball) > radius) && is_inside() {
         return Some(centre);
     }
     let near = |&(ball, radius): &([f64; 3], f64)| from_centre(ball) <= radius + half;
@@ -88,8 +89,8 @@ fn gap(
     let axis = (0..3).max_by(|&a, &b| (max[a] - min[a]).total_cmp(&(max[b] - min[b]))).unwrap();
     let (mut lower, mut upper) = (max, min);
     (lower[axis], upper[axis]) = (centre[axis], centre[axis]);
-    gap(mesh, &triangles, &balls, [min, lower], [depth, finest])
-        .or_else(|| gap(mesh, &triangles, &balls, [upper, max], [depth, finest]))
+    gap(mesh, &triangles, &balls, [min, lower], [depth, end, finest])
+        .or_else(|| gap(mesh, &triangles, &balls, [upper, max], [depth, end, finest]))
 }
 
 /// True if most rays in random directions cross an odd number of triangles, by sums of floats.
@@ -112,18 +113,36 @@ pub fn votes_inside(mesh: &Mesh, point: [f32; 3], random: &mut Random) -> bool {
     odd.count() >= 3
 }
 
-/// The balls that cover what a report says, of samples and given ones, and the place that is open in spite of them.
-fn open_place(mesh: &Mesh, samples: &[[f32; 3]], report: &InsideReport, given: &[([f32; 3], f64)]) -> Option<[f64; 3]> {
+/// The balls that cover what a report says of a shell, of samples and given ones, and the place that is open in spite of them.
+pub fn open_place(
+    mesh: &Mesh,
+    samples: &[[f32; 3]],
+    report: &InsideReport,
+    given: &[([f32; 3], f64)],
+    thickness: f64,
+) -> Option<[f64; 3]> {
     let limit = report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0;
     let of_given = given.iter().map(|&(centre, clearance)| (centre, clearance + 1e-6));
     let balls = samples.iter().map(|&sample| (sample, limit)).chain(of_given);
     let balls: Vec<_> = balls.map(|(centre, radius)| (centre.map(f64::from), radius)).collect();
     let Domain { min, max, .. } = space(mesh);
-    gap(mesh, &corners(mesh), &balls, [min, max], [report.depth, 1e-3 * report.radius])
+    let finest = 1e-3 * report.radius.min(thickness);
+    gap(mesh, &corners(mesh), &balls, [min, max], [report.depth, thickness - report.depth, finest])
 }
 
-/// Checks a set, and gives the number of random points inside that are covered.
+/// Checks a set of all of the inside, and gives the number of random points inside that are covered.
 fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32; 3], f64)]) -> usize {
+    check_shell(mesh, points, report, given, f64::INFINITY)
+}
+
+/// Checks a set of a shell, and gives the number of random points in it that are covered.
+pub fn check_shell(
+    mesh: &Mesh,
+    points: &Points<3>,
+    report: &InsideReport,
+    given: &[([f32; 3], f64)],
+    thickness: f64,
+) -> usize {
     let (domain, new) = (space(mesh), &points.positions[report.surface_samples..]);
     assert_eq!(new.iter().find(|&&sample| !mesh.contains(sample)), None, "outside");
     assert_eq!(conflict(&domain, report.radius, &points.positions), None);
@@ -133,8 +152,13 @@ fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32;
     for &sample in new.iter().step_by(1 + new.len() / 100) {
         assert!(votes_inside(mesh, sample, &mut random), "{sample:?}");
     }
-    assert_eq!(open_place(mesh, &points.positions, report, given), None, "open, deeper than {}", report.depth);
+    let open = open_place(mesh, &points.positions, report, given, thickness);
+    assert_eq!(open, None, "open, deeper than {}", report.depth);
     let (limit, triangles) = (report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0, corners(mesh));
+    if thickness.is_finite() {
+        let too_deep = new.iter().find(|sample| depth(&triangles, sample.map(f64::from)) > thickness * (1.0 + 1e-12));
+        assert_eq!(too_deep, None, "deeper than {thickness}");
+    }
     for _ in 0..6_000 {
         let place = [0, 1, 2].map(|k: usize| (domain.min[k] + domain.extent()[k] * f64::from(random.unit())) as f32);
         if !mesh.contains(place) {
@@ -143,10 +167,11 @@ fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport, given: &[([f32;
         let place = place.map(f64::from);
         let near = |samples: &[[f32; 3]]| samples.iter().any(|s| distance(&domain, s.map(f64::from), place) < limit);
         if near(&points.positions) || balls.iter().any(|&(c, r)| distance(&domain, c, place) < r + 1e-6) {
-            covered += 1;
+            covered += usize::from(thickness.is_infinite() || depth(&triangles, place) <= thickness);
         } else {
             let depth = depth(&triangles, place);
-            assert!(depth <= report.depth, "{place:?} is open, {depth} deep of {}", report.depth);
+            let is_at_border = depth <= report.depth || depth >= thickness - report.depth;
+            assert!(is_at_border, "{place:?} is open, {depth} deep of {}", report.depth);
         }
     }
     covered
@@ -355,6 +380,6 @@ fn the_oracle_can_fail() {
     let inner = |p: &[f32; 3]| p.iter().all(|x| (0.3..0.7).contains(x));
     let missing = points.positions.iter().position(inner).unwrap();
     points.positions.remove(missing);
-    assert!(open_place(&mesh, &points.positions, &report, &[]).is_some());
+    assert!(open_place(&mesh, &points.positions, &report, &[], f64::INFINITY).is_some());
     assert!(std::panic::catch_unwind(|| check(&mesh, &points, &report, &[])).is_err());
 }

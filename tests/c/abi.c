@@ -130,7 +130,7 @@ FIELD(azulejo_volume_report, radius, 16);
 FIELD(azulejo_volume_report, seconds, 24);
 FIELD(azulejo_volume_report, covering_radius, 32);
 
-SIZE(azulejo_volume_inside_options, 96);
+SIZE(azulejo_volume_inside_options, 104);
 FIELD(azulejo_volume_inside_options, struct_size, 0);
 FIELD(azulejo_volume_inside_options, surface, 4);
 FIELD(azulejo_volume_inside_options, radius, 8);
@@ -145,6 +145,7 @@ FIELD(azulejo_volume_inside_options, quotient, 64);
 FIELD(azulejo_volume_inside_options, given_positions, 72);
 FIELD(azulejo_volume_inside_options, given_clearances, 80);
 FIELD(azulejo_volume_inside_options, given_count, 88);
+FIELD(azulejo_volume_inside_options, thickness, 96);
 
 SIZE(azulejo_volume_inside_report, 56);
 FIELD(azulejo_volume_inside_report, struct_size, 0);

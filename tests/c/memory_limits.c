@@ -80,6 +80,16 @@ static azulejo_status volume_inside(const azulejo_context *context, size_t count
     return freed(azulejo_volume_sample_inside(context, cube, &o, &points, NULL), points);
 }
 
+/* A shell of the cube, with a volume of .488. */
+static azulejo_status volume_shell(const azulejo_context *context, size_t count) {
+    azulejo_volume_inside_options o;
+    azulejo_points *points = NULL;
+    ACCEPTED(azulejo_volume_inside_options_init(&o, sizeof o));
+    o.radius = volume_radius(count) * cbrt(0.488);
+    o.thickness = 0.1;
+    return freed(azulejo_volume_sample_inside(context, cube, &o, &points, NULL), points);
+}
+
 static azulejo_status volume_progressive(const azulejo_context *context, size_t count) {
     azulejo_volume_options o = volume_options(volume_radius(count));
     o.order = AZULEJO_ORDER_PROGRESSIVE;
@@ -603,6 +613,7 @@ static const struct {
     {"volume", volume, 1000000, MOST_ASKED},
     {"volume, tiled", volume_tiled, 1000000, MOST_ASKED},
     {"volume, inside a mesh", volume_inside, 500000, MOST_ASKED_AROUND},
+    {"volume, shell of a mesh", volume_shell, 500000, MOST_ASKED_AROUND},
     {"volume, progressive", volume_progressive, 400000, MOST_ASKED_UNEVENLY},
     {"volume, count", volume_count, 400000, MOST_ASKED_UNEVENLY},
     {"volume, count, progressive", volume_count_progressive, 400000, MOST_ASKED_UNEVENLY},

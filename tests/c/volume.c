@@ -260,10 +260,60 @@ static void relaxation_refused(void) {
     CHECK(out == UNTOUCHED);
 }
 
+static const uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                   2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+
+/* The shell of the cube: its samples in pairs and against the nearest face, and random places of it. */
+static void fills_shells(void) {
+    azulejo_volume_inside_options o;
+    azulejo_volume_inside_report report;
+    const azulejo_volume_options distances = {.boundary = AZULEJO_BOUNDARY_BOUNDED};
+    azulejo_mesh *cube = NULL;
+    azulejo_points *points = NULL, *again = NULL, *out = UNTOUCHED;
+    const float *xyz;
+    float corners[24];
+    uint64_t state = 4;
+    size_t i, k, tested = 0;
+    for (i = 0; i < 24; i++) corners[i] = (float)(i / 3 >> i % 3 & 1);
+    ACCEPTED(azulejo_mesh_create(corners, 8, 12, faces, 12, &cube));
+    ACCEPTED(azulejo_volume_inside_options_init(&o, sizeof o));
+    ACCEPTED(azulejo_volume_inside_report_init(&report, sizeof report));
+    CHECK(o.thickness == 0);
+    o.radius = 0.11;
+    o.thickness = 0.15;
+    ACCEPTED(azulejo_volume_sample_inside(one, cube, &o, &points, &report));
+    ACCEPTED(azulejo_volume_sample_inside(three, cube, &o, &again, NULL));
+    xyz = azulejo_points_positions(points);
+    CHECK(report.samples > 300 && azulejo_points_count(again) == report.samples && report.depth < 0.02);
+    CHECK(memcmp(xyz, azulejo_points_positions(again), 3 * report.samples * sizeof *xyz) == 0);
+    for (i = 0; i < report.samples; i++) {
+        const float *p = xyz + 3 * i;
+        const double here[3] = {p[0], p[1], p[2]};
+        double depth = 1;
+        for (k = 0; k < 3; k++) depth = fmin(depth, fmin(here[k], 1 - here[k]));
+        CHECK(depth >= 0 && depth <= 0.15);
+        CHECK(nearest(&distances, xyz, i + 1, report.samples, here) >= 0.11);
+    }
+    while (tested < 3000) {
+        double place[3], depth = 1;
+        for (k = 0; k < 3; k++) place[k] = random_number(&state);
+        for (k = 0; k < 3; k++) depth = fmin(depth, fmin(place[k], 1 - place[k]));
+        if (depth <= report.depth || depth >= 0.15 - report.depth) continue;
+        CHECK(nearest(&distances, xyz, 0, report.samples, place) < 0.11 + 1e-6);
+        tested++;
+    }
+    o.thickness = NAN;
+    REFUSED(INVALID, "thickness: NaN", azulejo_volume_sample_inside(one, cube, &o, &out, NULL));
+    o.thickness = 0.0004;
+    REFUSED(INVALID, "thickness: 0.0004 is neither 0 nor", azulejo_volume_sample_inside(one, cube, &o, &out, NULL));
+    CHECK(out == UNTOUCHED);
+    azulejo_points_free(points);
+    azulejo_points_free(again);
+    azulejo_mesh_free(cube);
+}
+
 /* In the cube: those that are fixed stay, the others stay inside. */
 static void relaxes_inside(void) {
-    static const uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                                       2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
     azulejo_relax_inside_options options;
     azulejo_volume_relax_report report;
     azulejo_mesh *cube = NULL, *open = NULL;
@@ -321,6 +371,7 @@ int main(void) {
     around_in_order_and_counted(AZULEJO_BOUNDARY_PERIODIC);
     around_in_order_and_counted(AZULEJO_BOUNDARY_BOUNDED);
     refused();
+    fills_shells();
     relaxes(AZULEJO_BOUNDARY_PERIODIC);
     relaxes(AZULEJO_BOUNDARY_BOUNDED);
     relaxation_refused();

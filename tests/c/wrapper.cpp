@@ -485,6 +485,13 @@ void insides() {
     const auto points = azulejo::volume_sample_inside(context, mesh, options, &report);
     CHECK(points.dimension() == 3 && points.size() == report.samples && points.triangles().empty());
     CHECK(report.surface_samples > 50 && report.surface_samples < report.samples && report.depth < 0.03);
+    options.thickness = 0.05;
+    const auto shell = azulejo::volume_sample_inside(context, mesh, options, &report);
+    CHECK(shell.size() < points.size() && report.depth < 0.022);
+    options.thickness = -1;
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "thickness: -1",
+                 [&] { azulejo::volume_sample_inside(context, mesh, options); }));
+    options.thickness = 0;
     const std::vector<float> places = {0.5f, 0.5f, 0.5f, 1.0f, 1.0f, 1.0f};
     const auto inside = azulejo::mesh_contains(context, mesh, places);
     CHECK(inside == (std::vector<std::uint8_t>{1, 0}));

@@ -18,6 +18,7 @@ pub struct VolumeInsideOptions {
     tolerance: f64,
     progressive: f64,
     quotient: f64,
+    thickness: f64,
 }
 
 /// The samples, their ranks, the radius, a bound of the covering radius, the depth and the number of samples of the surface.
@@ -36,12 +37,13 @@ pub unsafe extern "C" fn azulejo_volume_sample_inside(
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let given = unsafe { given(positions, count, clearances, clearance_count) };
-    let &VolumeInsideOptions { radius, count, surface_first, tolerance, progressive, quotient } = options;
+    let &VolumeInsideOptions { radius, count, surface_first, tolerance, progressive, quotient, thickness } = options;
     call(|context, progress| {
         let amount = if count > 0.0 { Amount::Count(count as usize) } else { Amount::Radius(radius) };
         let options = InsideOptions::of(amount)
             .surface(if surface_first == 0.0 { Surface::Open } else { Surface::First })
             .tolerance(tolerance)
+            .thickness(thickness)
             .seed(seed)
             .order(order((progressive != 0.0).into()))
             .quotient(quotient)

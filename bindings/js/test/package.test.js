@@ -435,6 +435,13 @@ test("sets inside meshes are conflict-free, maximal below the surface, and of cl
     assert.throws(() => azulejo.volumeSampleInside(open, { radius: 0.15 }), /mesh: is not closed/);
     assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, surface: "last" }), /surface: last/);
     assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, tolerance: 1 }), /tolerance: /);
+    const all = azulejo.volumeSampleInside(mesh, { radius: 0.15 }).positions;
+    assert.deepEqual(azulejo.volumeSampleInside(mesh, { radius: 0.15, thickness: 0.501 }).positions, all);
+    const shell = azulejo.volumeSampleInside(mesh, { radius: 0.15, thickness: 0.2 }).positions;
+    const depths = Array.from({ length: shell.length / 3 }, (_, i) =>
+        Math.min(...[...shell.subarray(3 * i, 3 * i + 3)].map((x) => Math.min(x, 1 - x))));
+    assert.ok(shell.length < all.length && Math.max(...depths) <= 0.2 && smallest(shell, 3) >= 0.15);
+    assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, thickness: NaN }), /thickness: /);
 });
 
 test("sets of boxes are conflict-free, maximal, exact in number and nested in progressive order", () => {

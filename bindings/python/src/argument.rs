@@ -103,7 +103,7 @@ macro_rules! arguments {
 
 // For `from_py_with`: a function for each argument, which knows its name.
 arguments! {
-    real: f64 = named => factor frequency_reach highest leaf_size radius reach sigma tolerance width;
+    real: f64 = named => factor frequency_reach highest leaf_size radius reach sigma thickness tolerance width;
     amount: f64 = or_zero => count radius;
     whole: i128 = named => axis bins channels count depth frequency_stride height iterations levels max_iterations probes seed size threads width;
     number: i128 = or_zero => count;

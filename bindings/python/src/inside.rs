@@ -19,7 +19,7 @@ report! {
         /// No place inside that is deeper than `depth` is farther from all samples, and outside of all given ones: the radius,
         /// or for a count mostly up to 1.1 times it; in progressive order the quotient times it.
         covering_radius: f64,
-        /// The greatest distance from the surface at which places inside can be open.
+        /// The greatest distance from the surface, and from the inner border of a shell, at which places inside can be open.
         depth: f64,
         /// The number of samples of the surface, which come first.
         surface_samples: u64,
@@ -46,6 +46,8 @@ impl From<volume::InsideReport> for VolumeInsideReport {
 /// surface: "open": samples lie anywhere inside; or "first": a maximal set of the surface comes first, and the inside is filled
 ///     around it. That takes a radius, and any order.
 /// tolerance: places inside may stay open that are nearer to the surface than sqrt(3) times this many radii, 1/256 to 1/2.
+/// thickness: only places that are no farther from the surface than this, in the units of the mesh, at least 1/256 of a radius; 0 for
+///     all of the inside.
 /// seed: 0 to 2**64 - 1. The same arguments and seed give the same bytes.
 /// order: "any", or "progressive": every prefix is well spread, and the points have ranks.
 /// quotient: of a progressive order: every prefix of 100 samples and more covers within this times its last rank, 1.02 to
@@ -59,7 +61,7 @@ impl From<volume::InsideReport> for VolumeInsideReport {
 /// Returns Points with the report VolumeInsideReport. They have no normals and triangles, also those of the surface.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, radius=0.0, *, count=0, surface="open", tolerance=0.0625, seed=0, order="any", quotient=None,
+    mesh, radius=0.0, *, count=0, surface="open", tolerance=0.0625, thickness=0.0, seed=0, order="any", quotient=None,
     given_positions=None, given_clearances=None, threads=0, progress=None
 ))]
 pub(crate) fn volume_sample_inside(
@@ -69,6 +71,7 @@ pub(crate) fn volume_sample_inside(
     #[pyo3(from_py_with = number::count)] count: i128,
     surface: &str,
     #[pyo3(from_py_with = real::tolerance)] tolerance: f64,
+    #[pyo3(from_py_with = real::thickness)] thickness: f64,
     #[pyo3(from_py_with = whole::seed)] seed: i128,
     order: &str,
     #[pyo3(from_py_with = maybe_real::quotient)] quotient: Option<f64>,
@@ -84,6 +87,7 @@ pub(crate) fn volume_sample_inside(
     let request = request
         .surface(choice("surface", surface, &[("open", Surface::Open), ("first", Surface::First)])?)
         .tolerance(tolerance)
+        .thickness(thickness)
         .seed(natural("seed", seed)?)
         .order(self::order(order, &[("quotient", quotient)])?)
         .quotient(quotient.unwrap_or(request.quotient))

@@ -34,6 +34,22 @@ def test_a_set_lies_inside_and_is_maximal(surface):
     assert not on_surface(rest).any() and len(rest) > 200
 
 
+@pytest.mark.parametrize("surface", ["open", "first"])
+def test_a_shell_is_filled_and_no_more(surface):
+    points = azulejo.volume_sample_inside(BOX, 0.15, seed=4, surface=surface, thickness=0.2)
+    positions, report = points.positions, points.report
+    to_faces = lambda places: np.minimum(places, CORNERS[7] - places.astype(float)).min(axis=1)
+    assert (to_faces(positions) <= 0.2).all() and smallest_distance(positions) >= 0.15
+    places = deep(report.depth, 30)
+    shell = places[to_faces(places) < 0.2 - report.depth]
+    assert len(shell) > 5_000 and farthest(shell, positions) <= 0.15 + 1e-5
+    everything = azulejo.volume_sample_inside(BOX, 0.15, seed=4, surface=surface)
+    assert len(points) < len(everything)
+    whole = azulejo.volume_sample_inside(BOX, 0.15, seed=4, surface=surface, thickness=0.501)
+    assert (whole.positions == everything.positions).all()
+    assert len(azulejo.volume_sample_inside(BOX, count=123, thickness=0.1)) == 123
+
+
 def test_a_gap_would_be_noticed():
     points = azulejo.volume_sample_inside(BOX, 0.15)
     inner = ((points.positions > 0.3) & (points.positions < 0.7)).all(axis=1)
@@ -114,6 +130,8 @@ def test_a_far_mesh_keeps_its_origin():
     "wrong, argument",
     [
         (dict(tolerance=0.7), "tolerance"),
+        (dict(thickness=-0.1), "thickness"),
+        (dict(thickness=1e-5), "thickness"),
         (dict(surface="second"), "surface"),
         (dict(surface="first", order="progressive"), "surface"),
         (dict(radius=-0.1), "radius"),

@@ -49,6 +49,9 @@ pub struct Volume {
     /// [default: 0.0625].
     #[arg(long, value_name = "T", requires = "inside", allow_negative_numbers = true)]
     tolerance: Option<f64>,
+    /// Only places that are no farther from the surface than this, at least 1/256 of a radius [default: 0: all of the inside].
+    #[arg(long, value_name = "D", requires = "inside", allow_negative_numbers = true)]
+    thickness: Option<f64>,
     /// The order of the samples. In progressive order the output has the rank of each sample, except in XYZ and raw
     /// floats.
     #[arg(long, value_enum, default_value = "any")]
@@ -128,6 +131,7 @@ impl Volume {
         let options = options
             .surface(if self.surface_first { Surface::First } else { Surface::Open })
             .tolerance(self.tolerance.unwrap_or(options.tolerance))
+            .thickness(self.thickness.unwrap_or(options.thickness))
             .seed(self.common.seed)
             .order(self.order.into())
             .quotient(self.quotient.unwrap_or(options.quotient))

@@ -55,6 +55,8 @@ pub struct azulejo_volume_inside_options {
     pub given_clearances: *const f64,
     /// Their number; default 0.
     pub given_count: usize,
+    /// Only places this near the surface, at least 1/256 radius; default 0: all.
+    pub thickness: f64,
 }
 
 growing!(azulejo_volume_inside_options requires radius {
@@ -71,6 +73,7 @@ growing!(azulejo_volume_inside_options requires radius {
     given_positions: std::ptr::null(),
     given_clearances: std::ptr::null(),
     given_count: 0,
+    thickness: 0.0,
 });
 
 /// Writes the defaults.
@@ -100,7 +103,7 @@ pub struct azulejo_volume_inside_report {
     /// No place inside that is deeper than `depth` is farther from all samples and outside of all
     /// given ones: the radius, with a count mostly up to 1.1 times it.
     pub covering_radius: f64,
-    /// The greatest distance from the surface at which places inside can be open.
+    /// Places this near to the surface, or a shell's inner border, can be open.
     pub depth: f64,
     /// Wall time in seconds.
     pub seconds: f64,
@@ -144,7 +147,7 @@ impl azulejo_volume_inside_options {
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         let quotient = if self.quotient == 0.0 { options.quotient } else { self.quotient };
-        let options = options.surface(surface).tolerance(self.tolerance).seed(self.seed);
+        let options = options.surface(surface).tolerance(self.tolerance).thickness(self.thickness).seed(self.seed);
         Ok(options.order(order).quotient(quotient).given(given))
     }
 }
