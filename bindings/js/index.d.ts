@@ -462,10 +462,7 @@ export interface VolumeOptions extends Cuboid, Given, Ordering, Watched {
     count?: number;
     /** Another seed gives another set. Default 0. */
     seed?: Seed;
-    /**
-     * The shortest side of a leaf of a tiled set, in radii, at least 6; 0, the default: it is not tiled. Neither with a
-     * count nor in progressive order.
-     */
+    /** The shortest side of a leaf of a tiled set, in radii, at least 6, without a count or an order; 0, the default: not tiled. */
     leafSize?: number;
 }
 

@@ -43,11 +43,7 @@ typedef struct azulejo_volume_options {
     /// the set, which with a `count` is refused.
     const double *given_clearances;
     size_t given_count; ///< The number of given samples; default 0.
-    /// The shortest side of a leaf, in radii: 6 or more, or 0, the default, for a set that is not
-    /// tiled. A tiled one consists of copies of a small set in leaves, with the gaps between them
-    /// filled: faster with leaves of 20 radii and more, and up to 1 % denser. Refused with a
-    /// `count` and in progressive order.
-    double leaf_size;
+    double leaf_size; ///< The shortest side of tiles in radii, 6 or more; default 0: not tiled.
 } azulejo_volume_options;
 
 /// The report of azulejo_volume_sample.

@@ -57,10 +57,7 @@ pub struct azulejo_volume_options {
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
-    /// The shortest side of a leaf, in radii: 6 or more, or 0, the default, for a set that is not
-    /// tiled. A tiled one consists of copies of a small set in leaves, with the gaps between them
-    /// filled: faster with leaves of 20 radii and more, and up to 1 % denser. Refused with a
-    /// `count` and in progressive order.
+    /// The shortest side of tiles in radii, 6 or more; default 0: not tiled.
     pub leaf_size: f64,
 }
 
