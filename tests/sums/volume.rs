@@ -78,6 +78,9 @@ fn insides(context: &Context, radius: f64, list: &mut List) -> Result<()> {
         ("progressive", free.order(Order::Progressive)),
         ("count", count),
         ("count, given", count.given(given)),
+        ("thin shell", free.thickness(0.7 * radius)),
+        ("shell, surface", free.thickness(2.0 * radius).surface(Surface::First)),
+        ("shell, count", count.thickness(0.06)),
     ] {
         list.samples(&format!("volume inside, {name}"), &sample_inside(context, &mesh, &options, None)?.0);
     }
