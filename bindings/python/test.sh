@@ -31,11 +31,12 @@ source_distribution() {
     PATH=$work/tools/bin:$PATH maturin sdist --out "$work/sdist"
 }
 
-# A wheel of what the source distribution holds, and nothing else.
+# A wheel of what the source distribution holds, and nothing else. Its files have the time of now: their own is always the
+# same, by which cargo would take what it compiled before.
 build_from_source_distribution() {
     rm -rf "$work/source"
     mkdir "$work/source"
-    tar --extract --gzip --file "$work"/sdist/azulejo_sampling-*.tar.gz --directory "$work/source" --strip-components 1
+    tar --extract --touch --gzip --file "$work"/sdist/azulejo_sampling-*.tar.gz --directory "$work/source" --strip-components 1
     (cd "$work/source" && build --profile smoke)
 }
 
