@@ -186,7 +186,9 @@ mod tests {
     /// An octahedron around a smaller one, which is hollow.
     fn interior() -> std::sync::Arc<Interior> {
         let corner = |k: u32, size: f32| -> [f32; 3] {
-            std::array::from_fn(|axis| if axis as u32 == k / 2 { if k % 2 == 0 { size } else { -size } } else { 0.0 })
+            std::array::from_fn(
+                |axis| if axis as u32 == k / 2 { if k.is_multiple_of(2) { size } else { -size } } else { 0.0 },
+            )
         };
         let positions = (0..12).map(|k| corner(k % 6, if k < 6 { 1.0 } else { 0.4 })).collect();
         let face = |k: u32| [k & 1, 2 + (k >> 1 & 1), 4 + (k >> 2 & 1)].map(|corner| corner + 6 * (k / 8));
