@@ -164,9 +164,7 @@ mod tests {
                 for x in steps.clone().filter(|&x| square([x, y, z], [0; 3]) < lattice.separation.threshold) {
                     let mut point = [sample[0] + x, sample[1] + y, sample[2] + z];
                     if lattice.boundary == Boundary::Periodic {
-                        for axis in 0..3 {
-                            point[axis] = point[axis].rem_euclid(lattice.size[axis]);
-                        }
+                        point = std::array::from_fn(|axis| point[axis].rem_euclid(lattice.size[axis]));
                     }
                     if lattice.rect().contains(point) {
                         covered[((point[2] * height + point[1]) * width + point[0]) as usize] = true;
