@@ -73,7 +73,7 @@ pub trait Levelled {
 
     /// The refusal of any count where nothing is open: given samples cover everything.
     fn no_place(&self, count: usize) -> Error {
-        Error::invalid("count", format!("{count}, but given samples cover all of the {}", Self::NAMES[1]))
+        covered_by_given(count, Self::NAMES[1])
     }
 
     /// The samples with those that a fill at this radius adds, which are last, and the number of darts thrown.
@@ -410,6 +410,11 @@ fn root<S: Levelled>(ratio: f64) -> f64 {
         2 => ratio.sqrt(),
         dimension => exp(log(ratio) / f64::from(dimension)),
     }
+}
+
+/// The refusal of any count where given samples cover everything.
+pub fn covered_by_given(count: usize, ground: &str) -> Error {
+    Error::invalid("count", format!("{count}, but given samples cover all of the {ground}"))
 }
 
 /// The refusal of a count for which the precision of floats is too low.

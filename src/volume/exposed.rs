@@ -5,7 +5,7 @@ use crate::simd::Lanes;
 use crate::volume::grid::{Grid, Touched};
 use crate::volume::search::Centre;
 use crate::volume::shape::{Shape, Voxels};
-use crate::volume::voxels::{Level, Voxel};
+use crate::volume::voxels::Voxel;
 
 /// The places of a region that may be open.
 pub struct Exposed {
@@ -98,16 +98,6 @@ impl Shape for Exposed {
             self.rows[usize::from(z) * rows + usize::from(y)] >> x & 1 == 1
         });
         Voxels { inside: open, cut: Vec::new() }
-    }
-
-    #[inline(always)]
-    fn parts<L: Lanes>(&mut self, _: L, _: &Grid, _: &Level, _: Voxel, open: u64) -> [u64; 2] {
-        [open, 0]
-    }
-
-    #[inline(always)]
-    fn holds(&self, _: Centre) -> bool {
-        true
     }
 }
 

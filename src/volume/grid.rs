@@ -154,15 +154,7 @@ impl Grid {
     /// The cells that a ball may touch, if there are any: a box around it. Its centre need not lie in the region.
     #[inline(always)]
     pub fn touched(&self, centre: Centre) -> Option<Touched> {
-        let along = |axis: usize| {
-            let along = f64::from(centre[axis] - self.origin[axis]);
-            let [low, high] = [along - self.reach, along + self.reach].map(|plane| plane * self.per_unit[axis]);
-            // Rounded towards 0, both: a place below the region touches none, or the first cell for one that is near.
-            let last = self.counts[axis] as f64 - 1.0;
-            let (low, high) = (low.max(0.0) as usize, high.min(last));
-            if high < low as f64 { 0..0 } else { low..high as usize + 1 }
-        };
-        let [columns, rows, layers] = [along(0), along(1), along(2)];
+        let [columns, rows, layers] = [0, 1, 2].map(|axis| self.cells_near(axis, centre, self.reach));
         let is_none = columns.is_empty() || rows.is_empty() || layers.is_empty();
         (!is_none).then_some(Touched { columns, rows: [rows, layers] })
     }
@@ -176,9 +168,16 @@ impl Grid {
         let [y, z] = [beyond(1, y), beyond(2, z)];
         // Wider by more than rounding.
         let half = (self.reach * self.reach - y * y - z * z).max(0.0).sqrt() + 1e-6 * self.reach;
-        let [low, high] = [along(0) - half, along(0) + half].map(|plane| plane * self.per_unit[0]);
-        let last = self.counts[0] as f64 - 1.0;
-        let (low, high) = (low.max(0.0) as usize, high.min(last));
+        self.cells_near(0, centre, half)
+    }
+
+    /// The cells along an axis within a distance of a place.
+    #[inline(always)]
+    fn cells_near(&self, axis: usize, centre: Centre, distance: f64) -> Range<usize> {
+        let along = f64::from(centre[axis] - self.origin[axis]);
+        let [low, high] = [along - distance, along + distance].map(|plane| plane * self.per_unit[axis]);
+        // Rounded towards 0, both: near a place below the region is no cell, or the first one.
+        let (low, high) = (low.max(0.0) as usize, high.min(self.counts[axis] as f64 - 1.0));
         if high < low as f64 { 0..0 } else { low..high as usize + 1 }
     }
 

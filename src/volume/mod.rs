@@ -346,7 +346,7 @@ impl Levelled for Cuboid<'_> {
     fn no_place(&self, count: usize) -> Error {
         match self.body {
             Some(_) if !self.has_given => solid::encloses_nothing(),
-            _ => Error::invalid("count", format!("{count}, but given samples cover all of the {}", Self::NAMES[1])),
+            _ => levels::covered_by_given(count, Self::NAMES[1]),
         }
     }
 

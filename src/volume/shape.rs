@@ -51,11 +51,17 @@ pub trait Shape {
     fn cells<L: Lanes>(&mut self, lanes: L, grid: &Grid, open: Vec<Voxel>) -> Voxels;
 
     /// The parts of a cut voxel, of those with a bit in `open`, that lie in the shape, and those that are cut and not too
-    /// small to matter.
-    fn parts<L: Lanes>(&mut self, lanes: L, grid: &Grid, level: &Level, voxel: Voxel, open: u64) -> [u64; 2];
+    /// small to matter. Shapes of whole cells have no cut voxels.
+    #[inline(always)]
+    fn parts<L: Lanes>(&mut self, _: L, _: &Grid, _: &Level, _: Voxel, open: u64) -> [u64; 2] {
+        [open, 0]
+    }
 
     /// True if a lattice point of the domain, one of a cut voxel, lies in the shape.
-    fn holds(&self, point: Centre) -> bool;
+    #[inline(always)]
+    fn holds(&self, _: Centre) -> bool {
+        true
+    }
 }
 
 /// All of a block.
@@ -65,15 +71,5 @@ impl Shape for Whole {
     #[inline(always)]
     fn cells<L: Lanes>(&mut self, _: L, _: &Grid, open: Vec<Voxel>) -> Voxels {
         Voxels { inside: open, cut: Vec::new() }
-    }
-
-    #[inline(always)]
-    fn parts<L: Lanes>(&mut self, _: L, _: &Grid, _: &Level, _: Voxel, open: u64) -> [u64; 2] {
-        [open, 0]
-    }
-
-    #[inline(always)]
-    fn holds(&self, _: Centre) -> bool {
-        true
     }
 }

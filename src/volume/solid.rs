@@ -22,8 +22,9 @@ const OF_SURFACE: f64 = 0.2;
 pub struct InsideReport {
     /// No two samples are nearer: the radius of the options, or that of the set of a count.
     pub radius: f64,
-    /// No place inside that is deeper than `depth`, and in a shell less deep than its thickness by more than that, is farther from all samples, and outside of all given ones, up to the tolerance
-    /// of [`sample`](super::sample): the radius, or of a count up to 1.1 times it, in progressive order the quotient times it.
+    /// No place inside that is deeper than `depth`, and in a shell less deep than its thickness by more than that, is farther
+    /// from all samples, and outside of all given ones, up to the tolerance of [`sample`](super::sample): the radius, or of a
+    /// count up to 1.1 times it, in progressive order the quotient times it.
     pub covering_radius: f64,
     /// The greatest depth at which places can be open: sqrt(3) times the tolerance and a few float spacings. In a shell, whose tolerance
     /// is a quarter of the thickness at most, also the greatest distance from its inner border.

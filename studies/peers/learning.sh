@@ -6,15 +6,12 @@
 #   studies/peers/learning.sh [--quick]     --quick to see the page, in target/peers, not to believe it
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. studies/peers/environment.sh
 
 place=target/peers
 packages=(scipy==1.17.1 open3d==0.20.0 trimesh==5.2.0 rtree==1.4.1 fpsample==1.0.2)
 
 page=docs/learning.md
 [ "${1:-}" != --quick ] || page=$place/learning.md
-wheel=$(integrations/wheel.sh)
-[ -n "$wheel" ] || { echo "learning.sh: there is no wheel: run bindings/python/test.sh" >&2; exit 1; }
-[ -x $place/venv/bin/python ] || python3 -m venv $place/venv
-$place/venv/bin/pip install --quiet --disable-pip-version-check "${packages[@]}"
-$place/venv/bin/pip install --quiet --disable-pip-version-check --no-deps --force-reinstall "$wheel"
+environment_with_azulejo $place/venv "${packages[@]}"
 $place/venv/bin/python studies/peers/learning.py --page $page "$@"

@@ -6,17 +6,14 @@
 #   studies/peers/render.sh [--quick]     --quick to see the page, in target/peers, not to believe it
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. studies/peers/environment.sh
 
 place=target/peers
 packages=(mitsuba==3.9.1 scipy==1.17.1 pillow==12.0.0)
 
 page=docs/rendering.md
 [ "${1:-}" != --quick ] || page=$place/rendering.md
-wheel=$(integrations/wheel.sh)
-[ -n "$wheel" ] || { echo "render.sh: there is no wheel: run bindings/python/test.sh" >&2; exit 1; }
-[ -x $place/mitsuba/bin/python ] || python3 -m venv $place/mitsuba
-$place/mitsuba/bin/pip install --quiet --disable-pip-version-check "${packages[@]}"
-$place/mitsuba/bin/pip install --quiet --disable-pip-version-check --no-deps --force-reinstall "$wheel"
+environment_with_azulejo $place/mitsuba "${packages[@]}"
 # LLVM 15 does not compile Mitsuba's kernels; that of Rust does, and is there.
 export DRJIT_LIBLLVM_PATH=${DRJIT_LIBLLVM_PATH:-$(find "$(rustc --print sysroot)/lib" -name 'libLLVM.so.*' -print -quit)}
 $place/mitsuba/bin/python studies/peers/check_render.py

@@ -6,6 +6,7 @@
 #   studies/peers/run.sh [MESH]      the mesh to sample; by default the dragon that scripts/demo.sh leaves in out/
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. studies/peers/environment.sh
 
 mesh=${1:-out/dragon.ply}
 place=target/peers
@@ -21,12 +22,9 @@ for library in libusb-1.0.so.0 libGL.so.1 libEGL.so.1; do
         exit 1
     }
 done
-for venv in venv blender; do
-    [ -x $place/$venv/bin/python ] || python3 -m venv $place/$venv
-done
-$place/venv/bin/pip install --quiet --disable-pip-version-check "${packages[@]}"
+environment $place/venv "${packages[@]}"
 # A Python that Blender is not made for has no such package: its rows then say so.
-$place/blender/bin/pip install --quiet --disable-pip-version-check $blender || echo "run.sh: no Blender for this Python" >&2
+environment $place/blender $blender || echo "run.sh: no Blender for this Python" >&2
 cargo run --quiet --release --locked --manifest-path studies/peers/Cargo.toml --target-dir $place -- \
     all --python $place/venv/bin/python --blender $place/blender/bin/python --mesh "$mesh" --page docs/peers.md \
     --packages "${packages[*]} $blender"

@@ -8,6 +8,7 @@
 # tph_poisson is in no registry: it is left out unless TPH names a folder with its header, thinks/tph_poisson.h.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. studies/peers/environment.sh
 
 place=target/peers
 packages=(scipy==1.17.1 open3d==0.20.0 point-cloud-utils==0.34.0 trimesh==5.2.0 rtree==1.4.1 pysplishsplash==2.19.0)
@@ -15,11 +16,7 @@ packages=(scipy==1.17.1 open3d==0.20.0 point-cloud-utils==0.34.0 trimesh==5.2.0 
 [ $# -gt 0 ] && [ -f "$1" ] || { echo "volume.sh: name a mesh, the Stanford bunny" >&2; exit 1; }
 mesh=$1
 shift
-wheel=$(integrations/wheel.sh)
-[ -n "$wheel" ] || { echo "volume.sh: there is no wheel: run bindings/python/test.sh" >&2; exit 1; }
-[ -x $place/venv/bin/python ] || python3 -m venv $place/venv
-$place/venv/bin/pip install --quiet --disable-pip-version-check "${packages[@]}"
-$place/venv/bin/pip install --quiet --disable-pip-version-check --no-deps --force-reinstall "$wheel"
+environment_with_azulejo $place/venv "${packages[@]}"
 cargo build --quiet --release --locked --manifest-path studies/peers/Cargo.toml --target-dir $place
 options=(--peers $place/release/peers --python $place/venv/bin/python --bunny "$mesh")
 if [ -n "${TPH:-}" ]; then

@@ -341,14 +341,18 @@ fn counts_are_exact_and_orders_progressive() {
 
 #[test]
 fn seeds_and_not_threads_decide() {
-    let mesh = mesh(meshes::welded(meshes::torus()));
+    check_seeds_and_threads(&mesh(meshes::welded(meshes::torus())), InsideOptions::new(0.04));
+}
+
+/// Another seed makes another set, other numbers of threads make the same one.
+pub fn check_seeds_and_threads(mesh: &Arc<Mesh>, options: InsideOptions) {
     for surface in [Surface::Open, Surface::First] {
-        let options = InsideOptions::new(0.04).seed(1).surface(surface);
-        let first = made(&mesh, &options).0.positions;
-        assert_ne!(first, made(&mesh, &options.seed(2)).0.positions);
+        let options = options.seed(1).surface(surface);
+        let first = made(mesh, &options).0.positions;
+        assert_ne!(first, made(mesh, &options.seed(2)).0.positions);
         for threads in [2, 3] {
             let context = Context::new(threads).unwrap();
-            assert_eq!(first, sample_inside(&context, &mesh, &options, None).unwrap().0.positions);
+            assert_eq!(first, sample_inside(&context, mesh, &options, None).unwrap().0.positions);
         }
     }
 }

@@ -10,7 +10,9 @@ use azulejo::{Context, Error, Given, Order};
 use crate::common::meshes;
 use crate::common::random::Random;
 use crate::common::volume_oracle::{conflict, distance};
-use crate::volume_inside::{check_shell, closed_shapes, corners, cube, depth, made, mesh, open_place, scaled, space};
+use crate::volume_inside::{
+    check_seeds_and_threads, check_shell, closed_shapes, corners, cube, depth, made, mesh, open_place, scaled, space,
+};
 
 fn torus() -> Arc<Mesh> {
     mesh(meshes::welded(meshes::torus()))
@@ -144,16 +146,7 @@ fn given_samples_keep_their_clearances() {
 
 #[test]
 fn seeds_and_not_threads_decide() {
-    let mesh = torus();
-    for surface in [Surface::Open, Surface::First] {
-        let options = InsideOptions::new(0.03).seed(1).surface(surface).thickness(0.08);
-        let first = made(&mesh, &options).0.positions;
-        assert_ne!(first, made(&mesh, &options.seed(2)).0.positions);
-        for threads in [2, 3] {
-            let context = Context::new(threads).unwrap();
-            assert_eq!(first, sample_inside(&context, &mesh, &options, None).unwrap().0.positions);
-        }
-    }
+    check_seeds_and_threads(&torus(), InsideOptions::new(0.03).thickness(0.08));
 }
 
 #[test]
