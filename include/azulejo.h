@@ -32,7 +32,7 @@
  *   samples of a mesh                             azulejo_psp_sample
  *   a mesh whose radius or density varies         azulejo_psp_adaptive_sample, _with_density
  *   a mesh under a brush: erase, refill, undo     azulejo_psp_create, azulejo_psp_erase, _refill
- *   several kinds of things, such as plants       azulejo_kdrt_sample_classes, azulejo_psp_...
+ *   several kinds of things, such as plants       azulejo_kdrt_..., psp_..., volume_sample_classes
  *   the same on a mesh, with a density            azulejo_psp_classes_with_density
  *   levels of detail, which are prefixes          the same calls, with `order` progressive
  *   sets that exist, joined without seams         azulejo_kdrt_merge

@@ -884,7 +884,8 @@ using VolumeInsideOptions =
 /// See azulejo_volume_relax_options.
 using VolumeRelaxOptions =
     Options<azulejo_volume_relax_options, azulejo_volume_relax_options_init>;
-/// See azulejo_relax_inside_options; `fixed` must stay valid until the call returns.
+/// See azulejo_relax_inside_options; `fixed` and `sliding` must stay valid until the call
+/// returns.
 using VolumeRelaxInsideOptions =
     Options<azulejo_relax_inside_options, azulejo_relax_inside_options_init>;
 /// See azulejo_mask_options; `width` and `height` have no defaults.
@@ -1846,6 +1847,17 @@ inline Status try_volume_sample(const Context &context, const VolumeOptions &opt
     });
 }
 
+/// Samples of several classes in a cuboid; see azulejo_volume_sample_classes.
+inline Status try_volume_sample_classes(const Context &context, const VolumeOptions &options,
+                                        const Classes &classes, Points &out,
+                                        ClassesReport *report = nullptr) {
+    return detail::with_classes(options, classes, [&](const azulejo_classes &wanted) {
+        return detail::make(out, [&](auto **points) {
+            return azulejo_volume_sample_classes(context.get(), &options, &wanted, points, report);
+        });
+    });
+}
+
 /// A maximal set of samples inside a mesh; see azulejo_volume_sample_inside.
 inline Status try_volume_sample_inside(const Context &context, const Mesh &mesh,
                                        const VolumeInsideOptions &options, Points &out,
@@ -2571,6 +2583,13 @@ inline Points volume_sample(const Context &context, const VolumeOptions &options
                             VolumeReport *report = nullptr) {
     Points points;
     check(try_volume_sample(context, options, points, report));
+    return points;
+}
+
+inline Points volume_sample_classes(const Context &context, const VolumeOptions &options,
+                                    const Classes &classes, ClassesReport *report = nullptr) {
+    Points points;
+    check(try_volume_sample_classes(context, options, classes, points, report));
     return points;
 }
 

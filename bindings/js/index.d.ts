@@ -478,6 +478,22 @@ export function volumeSample(options: VolumeOptions): {
     coveringRadius: number;
 };
 
+export interface VolumeClassesOptions extends Cuboid, Given, Watched {
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/**
+ * Samples of several classes in a cuboid, sorted by class. `radii`: a symmetric matrix, row by row, of the smallest distance of
+ * samples of two classes. `givenClearances` have a number for each class, given sample by given sample.
+ */
+export function volumeSampleClasses(options: VolumeClassesOptions | undefined, radii: Numbers): {
+    /** x y z of each sample. */
+    positions: Float32Array;
+    /** The class of each sample: its row in the matrix. */
+    classes: Uint32Array;
+};
+
 export interface VolumeInsideOptions extends Given, Ordering, Watched {
     /** The smallest distance of two samples, in the units of the mesh. Required, unless there is a count. */
     radius?: number;
@@ -691,6 +707,8 @@ export function volumeRelax(
 export interface VolumeRelaxInsideOptions extends Watched {
     /** True for each point that stays where it is; default: none does. */
     fixed?: ArrayLike<number | boolean> | null;
+    /** True for each point that stands on the surface and moves along it; default: none does. No point is fixed and sliding. */
+    sliding?: ArrayLike<number | boolean> | null;
     /** The largest number of steps; default 100. */
     maxIterations?: number;
     /** The motion at which the set has converged; default 0.001. */
@@ -701,7 +719,7 @@ export interface VolumeRelaxInsideOptions extends Watched {
 
 /**
  * Moves points inside a closed mesh, x y z each, until they are evenly spread. None leaves the inside; those that are fixed, such
- * as the first `surfaceSamples` of volumeSampleInside, need only be in the box around the mesh.
+ * as the first `surfaceSamples` of volumeSampleInside, need only be in the box around the mesh, those that slide on its surface.
  */
 export function volumeRelaxInside(
     mesh: Mesh,

@@ -80,6 +80,7 @@ const EDITED_PLANE = { ...DOMAIN, ...GIVEN, radius: 0, leafSize: 20, seed: 0 };
 const GROWING = { ...GIVEN, ...PROJECTION, radius: 0, seed: 0, cosine: -1 };
 const REGION = { centre: null, radius: null, min: null, max: null };
 const VOLUME = { ...CUBOID, ...GIVEN, ...ORDERING, radius: 0, count: 0, seed: 0, leafSize: 0 };
+const CLASSES_IN_SPACE = { ...CUBOID, ...GIVEN, seed: 0 };
 const SPACE = { ...CUBOID, radius: 0 };
 const INSIDE = { ...WATCHED, ...GIVEN, ...ORDERING, radius: 0, count: 0, surface: "open", tolerance: 0.0625, thickness: 0, seed: 0 };
 const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
@@ -100,7 +101,7 @@ const SCATTER = { ...DOMAIN, seed: 0 };
 // Of several classes, and to a density.
 const RELAX_CLASSES = { ...DOMAIN, maxIterations: 100, tolerance: 0.001, seed: 0 };
 const RELAX_VOLUME = { ...CUBOID, maxIterations: 100, tolerance: 0.001, seed: 0 };
-const RELAX_INSIDE = { ...WATCHED, fixed: null, maxIterations: 100, tolerance: 0.001, seed: 0 };
+const RELAX_INSIDE = { ...WATCHED, fixed: null, sliding: null, maxIterations: 100, tolerance: 0.001, seed: 0 };
 const CORRELATION = { ...DOMAIN, maxIterations: 100, tolerance: 0.005, seed: 0 };
 const IMAGE = { values: null, width: 0, height: 0 };
 const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
@@ -555,6 +556,18 @@ export function volumeSample(options) {
     }, options);
 }
 
+export function volumeSampleClasses(options, radii) {
+    options = withDefaults(CLASSES_IN_SPACE, options);
+    return calling((call) => {
+        const cuboid = call.options(domainOf(options, 3));
+        const args = [
+            cuboid, seedOf(options), ...given(call, options, 3), ...call.rows("radii", radii, Float64Array, 1),
+        ];
+        const [positions, classes] = call.make("volume_sample_classes", args, Float32Array, Uint32Array);
+        return { positions, classes };
+    }, options);
+}
+
 export function volumeSampleInside(mesh, options) {
     options = withDefaults(INSIDE, options);
     return calling((call) => {
@@ -853,10 +866,13 @@ export function volumeRelax(positions, options) {
 export function volumeRelaxInside(mesh, positions, options) {
     options = withDefaults(RELAX_INSIDE, options);
     return calling((call) => {
-        const fixed = options.fixed && Array.from(options.fixed, (isFixed) => (isFixed ? 1 : 0));
+        const flags = (name) => {
+            const of = options[name] && Array.from(options[name], (is) => (is ? 1 : 0));
+            return call.rows(name, of, Uint8Array, 1);
+        };
         const args = [
             meshPointer(mesh), whole("maxIterations", options.maxIterations), options.tolerance, seedOf(options),
-            ...call.rows("positions", positions, Float32Array, 3), ...call.rows("fixed", fixed, Uint8Array, 1),
+            ...call.rows("positions", positions, Float32Array, 3), ...flags("fixed"), ...flags("sliding"),
         ];
         return relaxationInSpace(call.make("volume_relax_inside", args, Float32Array, Float64Array));
     }, options);

@@ -530,6 +530,18 @@ def volume_sample(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def volume_sample_classes(
+    radii: ArrayLike,
+    *,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: _Boundary = "periodic",
+    seed: SupportsIndex = 0,
+    given_positions: Optional[ArrayLike] = None,
+    given_clearances: Optional[ArrayLike] = None,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def volume_sample_inside(
     mesh: _MeshLike,
     radius: Optional[SupportsFloat] = 0.0,
@@ -758,6 +770,7 @@ def volume_relax_inside(
     positions: ArrayLike,
     *,
     fixed: Optional[ArrayLike] = None,
+    sliding: Optional[ArrayLike] = None,
     max_iterations: SupportsIndex = 100,
     tolerance: Optional[SupportsFloat] = None,
     seed: SupportsIndex = 0,

@@ -231,19 +231,21 @@ fn relax_keeps_points_inside_a_mesh() {
     let set = InsideOptions::new(0.2).surface(Surface::First);
     let (points, report) = sample_inside(&context, &mesh, &set, None).unwrap();
     let count = report.surface_samples.to_string();
-    for (arguments, is_fixed) in [(&[][..], false), (&["--fixed", &count][..], true)] {
-        let fixed: Vec<bool> = match is_fixed {
+    for of_surface in [None, Some("--fixed"), Some("--sliding")] {
+        let first = |name| match of_surface == Some(name) {
             false => Vec::new(),
-            true => (0..points.len()).map(|index| index < report.surface_samples).collect(),
+            true => (0..points.len()).map(|index| index < report.surface_samples).collect::<Vec<bool>>(),
         };
-        // Samples of the surface are inside only if they are fixed.
+        let (fixed, sliding) = (first("--fixed"), first("--sliding"));
+        let arguments: Vec<&str> = of_surface.into_iter().flat_map(|name| [name, &count]).collect();
+        // Other samples of the surface are not inside.
         let inside: Vec<[f32; 3]> =
-            points.positions.iter().copied().filter(|&p| is_fixed || mesh.contains(p)).collect();
+            points.positions.iter().copied().filter(|&p| of_surface.is_some() || mesh.contains(p)).collect();
         let rows_of = |points: &[[f32; 3]]| points.iter().map(|[x, y, z]| format!("{x},{y},{z}\n")).collect::<String>();
         workshop.write("inside.csv", format!("x,y,z\n{}", rows_of(&inside)));
         let all = ["relax", "inside.csv", "--inside", "solid.obj", "--iterations", "20", "--seed", "2", "-o", "b.ply"];
-        let said = workshop.succeed(&[&all[..], arguments].concat());
-        let options = volume::InsideOptions::default().max_iterations(20).seed(2).fixed(&fixed);
+        let said = workshop.succeed(&[&all[..], &arguments].concat());
+        let options = volume::InsideOptions::default().max_iterations(20).seed(2).fixed(&fixed).sliding(&sliding);
         let (expected, done) = volume::relax_inside(&context, &mesh, &options, &inside, None).unwrap();
         let (header, relaxed) = rows(&workshop, "b.ply", 3);
         assert!(relaxed.iter().eq(expected.iter()));
@@ -257,6 +259,12 @@ fn relax_keeps_points_inside_a_mesh() {
         (&["outside.csv", "--inside", "solid.obj"], 1, "error: outside.csv: point 1 is (2, 2, 2), outside the mesh"),
         (&["outside.csv", "--inside", "solid.obj", "--fixed", "3"], 1, "error: outside.csv: has 2 points, fewer than"),
         (&["a.ply", "--fixed", "3"], 2, "error: "),
+        (
+            &["outside.csv", "--inside", "solid.obj", "--sliding", "3"],
+            1,
+            "error: outside.csv: has 2 points, fewer than",
+        ),
+        (&["a.ply", "--inside", "solid.obj", "--fixed", "3", "--sliding", "3"], 2, "error: "),
         (&["a.ply", "--inside", "solid.obj", "--mesh", "solid.obj"], 2, "error: "),
     ] {
         let said = workshop.refuse(&[&["relax", "-o", "c.ply"], arguments].concat(), code);

@@ -160,7 +160,7 @@ fn inside(input: &mut Input, patience: &Patience) {
     }
 }
 
-/// Relaxes samples: those of the surface stay, those that were inside are so afterwards.
+/// Relaxes samples: those of the surface stay or slide, those that were inside are so afterwards.
 fn relaxed(
     mesh: &Owned<azulejo_mesh>,
     samples: &[[f32; 3]],
@@ -169,7 +169,10 @@ fn relaxed(
     input: &mut Input,
     patience: &Patience,
 ) {
-    let is_fixed: Vec<u8> = (0..samples.len()).map(|i| u8::from(i < on_surface || input.one_in(8))).collect();
+    let slides = input.one_in(2);
+    let is_sliding: Vec<u8> = (0..samples.len()).map(|i| u8::from(i < on_surface && slides)).collect();
+    let is_fixed: Vec<u8> =
+        (0..samples.len()).map(|i| u8::from(if i < on_surface { !slides } else { input.one_in(8) })).collect();
     let options = azulejo_relax_inside_options {
         max_iterations: input.below(12),
         seed: input.any(),
@@ -177,6 +180,8 @@ fn relaxed(
         progress_user: patience.user(),
         fixed: is_fixed.as_ptr(),
         fixed_count: is_fixed.len(),
+        sliding: is_sliding.as_ptr(),
+        sliding_count: is_sliding.len(),
         ..report(azulejo_relax_inside_options_init)
     };
     let mut done = report(azulejo_volume_relax_report_init);

@@ -251,8 +251,7 @@ typedef struct azulejo_classes {
     size_t mask_count; ///< That of the mesh's triangles, or 0, the default, for none.
 } azulejo_classes;
 
-/// The report of azulejo_kdrt_sample_classes, azulejo_psp_sample_classes and
-/// azulejo_psp_classes_with_density.
+/// The report of calls that make samples of several classes.
 typedef struct azulejo_classes_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t classes; ///< The number of classes.

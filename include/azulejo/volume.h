@@ -79,6 +79,15 @@ azulejo_status azulejo_volume_sample(const azulejo_context *context,
                                      azulejo_points **out,
                                      azulejo_volume_report *report);
 
+/// Makes samples of several classes in a cuboid, as azulejo_classes says, up to 7 float spacings.
+/// They are sorted by class; classes of equal radii get about equal shares. O(samples). Options:
+/// the domain, its boundary, the seed, given samples and progress.
+azulejo_status azulejo_volume_sample_classes(const azulejo_context *context,
+                                             const azulejo_volume_options *options,
+                                             const azulejo_classes *classes,
+                                             azulejo_points **out,
+                                             azulejo_classes_report *report);
+
 #define AZULEJO_SURFACE_OPEN 0 ///< Samples lie anywhere inside.
 
 /// A maximal set of the surface comes first, and the inside is filled around it.
@@ -205,6 +214,8 @@ typedef struct azulejo_relax_inside_options {
     /// One byte per point: any value but 0 keeps it where it is. Default NULL: none stays.
     const uint8_t *fixed;
     size_t fixed_count; ///< 0, the default, for none, or the number of points.
+    const uint8_t *sliding; ///< Likewise: it stays on the surface. Default NULL: none.
+    size_t sliding_count; ///< Default 0, as fixed_count.
 } azulejo_relax_inside_options;
 
 /// Writes the defaults.
@@ -233,10 +244,9 @@ azulejo_status azulejo_volume_relax(const azulejo_context *context,
 azulejo_status azulejo_relax_inside_options_init(azulejo_relax_inside_options *options,
                                                  size_t struct_size);
 
-/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. No point
+/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. None
 /// leaves the inside (azulejo_mesh_contains). Clustered ones are not redistributed.
-/// - positions: inside; those that are fixed, such as the first of azulejo_volume_sample_inside,
-///   only in the box around the mesh.
+/// positions: those that are fixed in the box around the mesh, those that slide on its surface.
 azulejo_status azulejo_volume_relax_inside(const azulejo_context *context,
                                            const azulejo_mesh *mesh,
                                            const azulejo_relax_inside_options *options,

@@ -99,6 +99,11 @@ impl Interior {
         self.tree.nearest(place, within)
     }
 
+    /// The place of the surface as [`Interior::nearest`] and the unit normal of its triangle; 0 of one without area.
+    pub(crate) fn nearest_facing(&self, place: [f64; 3], within: f64) -> Option<([f64; 3], [f64; 3])> {
+        self.tree.nearest_facing(place, within)
+    }
+
     /// A place of the surface and the square of its distance from another, if that is at most the square of `far`: the nearest
     /// place, or any whose square is at most that of `near`. The square is, to the bit, the one that all triangles give.
     pub(crate) fn nearest_in_band(&self, place: [f64; 3], band: [f64; 2]) -> Option<([f64; 3], f64)> {

@@ -9,17 +9,28 @@ impl Tree {
     /// The place of the triangles that is nearest to another place, and the square of its distance, if that is less than that of
     /// `within`. The distance is right to 1e-7 of the size of the triangle. About O(log n).
     pub fn nearest(&self, place: [f64; 3], within: f64) -> Option<([f64; 3], f64)> {
+        self.nearest_triangle(place, within).map(|(foot, squared, _)| (foot, squared))
+    }
+
+    fn nearest_triangle(&self, place: [f64; 3], within: f64) -> Option<([f64; 3], f64, usize)> {
         let (mut least, mut found) = (square(within), None);
         self.for_each_nearest(place, least, |triangle| {
             let corners = self.corners[triangle].map(|corner| DVec3::from_array(corner.map(f64::from)));
             let foot = foot(place.into(), corners);
             let squared = foot.distance_squared(place.into());
             if squared < least {
-                (least, found) = (squared, Some(foot.to_array()));
+                (least, found) = (squared, Some((foot.to_array(), squared, triangle)));
             }
             least
         });
-        found.map(|foot| (foot, least))
+        found
+    }
+
+    /// The place of the triangles as [`Tree::nearest`], and the unit normal of the triangle; 0 of one without area.
+    pub fn nearest_facing(&self, place: [f64; 3], within: f64) -> Option<([f64; 3], [f64; 3])> {
+        let (foot, _, triangle) = self.nearest_triangle(place, within)?;
+        let [a, b, c] = self.corners[triangle].map(|corner| DVec3::from_array(corner.map(f64::from)));
+        Some((foot, (b - a).cross(c - a).normalize_or_zero().to_array()))
     }
 
     /// A place of the triangles and the square of its distance from another place, if that is at most the square of `far`: the

@@ -13,6 +13,7 @@
 
 mod blocks;
 mod body;
+mod classes;
 mod clip;
 mod exposed;
 mod fill;
@@ -44,6 +45,7 @@ use crate::points::{Boundary, Domain, MAXIMAL_DENSITY_IN_SPACE, Points, check_ra
 use crate::setters::setters;
 use crate::volume::set::{Sample, Set};
 use body::Body;
+pub use classes::{ClassesOptions, sample_classes};
 use clip::pattern_bytes;
 pub use inside_options::{InsideOptions, Surface};
 pub(crate) use solid::check_closed;

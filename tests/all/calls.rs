@@ -91,6 +91,7 @@ static IN_SOLID: LazyLock<Vec<[f32; 3]>> = LazyLock::new(|| {
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
 static CLASSES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.06, 0.03], 1.0).unwrap());
 static MULTIPLES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[1.0, 0.5], 1.0).unwrap());
+static EQUAL: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.08, 0.08], 1.0).unwrap());
 /// Samples of the mesh.
 static ON_MESH: LazyLock<Points<3>> =
     LazyLock::new(|| psp::sample(&Context::new(1).unwrap(), &MESH, &psp::Options::new(0.08), None).unwrap().0);
@@ -491,6 +492,10 @@ const RELAXATION: &[Call] = &[
                 said(dcr::volume::relax_inside(c, &SOLID, &Default::default(), &[[0.5, 9.5, 0.5]], p))
             }),
             ("mesh: ", |c, p| said(dcr::volume::relax_inside(c, &MESH, &Default::default(), &[], p))),
+            ("sliding: ", |c, p| {
+                let options = dcr::volume::InsideOptions::default().sliding(&[true]);
+                said(dcr::volume::relax_inside(c, &SOLID, &options, &IN_SOLID, p))
+            }),
             ("fixed: ", |c, p| {
                 let options = dcr::volume::InsideOptions::default().fixed(&[true]);
                 said(dcr::volume::relax_inside(c, &SOLID, &options, &IN_SOLID, p))
@@ -618,6 +623,20 @@ const VOLUME: &[Call] = &[
             ("leaf_size: ", |c, p| said(volume::sample(c, &volume::Options::new(0.1).leaf_size(2.0), p))),
             ("domain_max: ", |c, p| {
                 said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
+            }),
+        ],
+    },
+    Call {
+        name: "volume::sample_classes",
+        reports: 10,
+        run: |c, p| said(volume::sample_classes(c, &volume::ClassesOptions::default().domain(CUBE), &EQUAL, p)),
+        refused: &[
+            ("radii: ", |c, p| {
+                said(volume::sample_classes(c, &Default::default(), &Classes::new(1, &[1e-9]).unwrap(), p))
+            }),
+            ("domain_max: ", |c, p| {
+                let domain = Domain { max: [1.0, 0.0, 1.0], ..CUBE };
+                said(volume::sample_classes(c, &volume::ClassesOptions::default().domain(domain), &EQUAL, p))
             }),
         ],
     },

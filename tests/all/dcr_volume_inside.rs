@@ -143,6 +143,78 @@ fn maximal_sets_are_spread() {
     }
 }
 
+/// The farthest of some points from the surface, over what is promised: two float spacings of the box, and 10^-7 of its size.
+fn off_surface(mesh: &Mesh, points: impl Iterator<Item = [f32; 3]>) -> f64 {
+    let (low, high) = mesh.bounds();
+    let largest = low.iter().chain(&high).fold(0.0, |largest, x| f64::max(largest, x.abs().into()));
+    let size = (0..3).map(|k| f64::from(high[k]) - f64::from(low[k])).fold(0.0, f64::max);
+    let allowed = 2.0 * f64::from(f32::EPSILON) * largest + 1e-7 * size;
+    let triangles = corners(mesh);
+    points.map(|point| depth(&triangles, point.map(f64::from))).fold(0.0, f64::max) / allowed
+}
+
+fn slid(mesh: &Mesh, steps: u32, points: &[[f32; 3]], sliding: &[bool]) -> (Vec<[f32; 3]>, Report) {
+    let options = InsideOptions::default().max_iterations(steps).sliding(sliding);
+    relax_inside(&Context::new(1).unwrap(), mesh, &options, points, None).unwrap()
+}
+
+/// Those of the surface stay on it and move, and the others stay inside; also where floats hardly resolve the mesh or are tiny.
+#[test]
+fn sliding_points_stay_on_the_surface() {
+    let placed = [
+        ("far star", meshes::placed(star(), 1.0, 20_000.0), 0.2),
+        ("large star", scaled(star(), 1e30), 0.2e30),
+        ("small star", scaled(star(), 1e-30), 0.2e-30),
+    ];
+    for (name, soup, radius) in closed_shapes().into_iter().chain(placed) {
+        let mesh = mesh(soup);
+        let (points, sliding) = maximal(&mesh, radius, Surface::First);
+        for steps in [0, 1, 3, 60] {
+            let (after, report) = slid(&mesh, steps, &points, &sliding);
+            let of_surface = || (0..points.len()).filter(|&i| sliding[i]);
+            let off = off_surface(&mesh, of_surface().map(|i| after[i]));
+            assert!(off <= 1.0, "{name} {steps}: {off}");
+            check_inside(name, &mesh, &after, &sliding);
+            let moved = of_surface().filter(|&i| after[i] != points[i]).count();
+            assert!(steps == 0 || 2 * moved > of_surface().count(), "{name} {steps}: {moved}");
+            assert_eq!((report.iterations, steps == 0), (steps, after == points), "{name}");
+        }
+    }
+}
+
+/// From one face of a cube to all others, past its edges and corners, and as far from each other as a few points get.
+#[test]
+fn sliding_points_pass_edges() {
+    let mesh = mesh(cube());
+    let mut random = Random::new(4);
+    let points: Vec<[f32; 3]> = (0..300).map(|_| [random.unit(), random.unit(), 0.0]).collect();
+    let after = slid(&mesh, 1000, &points, &[true; 300]).0;
+    let on = |axis: usize, side: f32| after.iter().filter(|p| (p[axis] - side).abs() < 1e-6).count();
+    for (axis, side) in [(0, 0.0), (0, 1.0), (1, 0.0), (1, 1.0), (2, 1.0)] {
+        assert!(on(axis, side) > 20, "axis {axis} at {side}: {}", on(axis, side));
+    }
+    assert!(off_surface(&mesh, after.into_iter()) <= 1.0);
+    let pair = slid(&mesh, 500, &[[0.5, 0.5, 0.0], [0.501, 0.5, 0.0]], &[true; 2]).1;
+    assert!(pair.smallest_distance > 0.9, "{pair:?}");
+}
+
+/// A surface that slides ends with larger distances than one that is fixed, and no wider holes.
+#[test]
+fn sliding_surfaces_are_spread() {
+    for (name, soup, radius) in [
+        ("torus", meshes::welded(meshes::torus()), 0.1),
+        ("sphere", meshes::welded(meshes::sphere()), 0.16),
+        ("star", star(), 0.09),
+    ] {
+        let mesh = mesh(soup);
+        let (points, on_surface) = maximal(&mesh, radius, Surface::First);
+        let (fixed, of_fixed) = relaxed(&mesh, 200, &points, &on_surface);
+        let (after, report) = slid(&mesh, 200, &points, &on_surface);
+        let covers = [&fixed, &after].map(|points| covering_radius(&mesh, points));
+        assert!(report.rho > 1.1 * of_fixed.rho && covers[1] < 1.02 * covers[0], "{name}: {report:?} {covers:?}");
+    }
+}
+
 #[test]
 fn threads_do_not_matter() {
     let mesh = mesh(meshes::welded(meshes::torus()));
@@ -157,9 +229,12 @@ fn threads_do_not_matter() {
             assert_eq!(relax_inside(&context, &mesh, &options, &points, None).unwrap(), one);
         }
     }
+    let options = InsideOptions::default().max_iterations(12).sliding(&fixed);
+    let threaded = relax_inside(&Context::new(3).unwrap(), &mesh, &options, &points, None).unwrap();
+    assert_eq!(threaded, slid(&mesh, 12, &points, &fixed));
 }
 
-/// Heaps come apart, also at the surface and on a fixed point; of two fixed points at one place none moves.
+/// Heaps come apart, also at the surface, on it and on a fixed point; of two fixed points at one place none moves.
 #[test]
 fn coincident_points_are_parted() {
     let mesh = mesh(cube());
@@ -177,6 +252,10 @@ fn coincident_points_are_parted() {
             let apart = free.iter().enumerate().all(|(i, &p)| free[..i].iter().all(|&q| squared(p, q) > least));
             assert!(apart, "{at:?}");
         }
+    }
+    for at in [[0.5, 0.5, 0.0], [0.5, 0.0, 0.0], [0.0; 3]] {
+        let (after, report) = slid(&mesh, 100, &[at; 20], &[true; 20]);
+        assert!(off_surface(&mesh, after.into_iter()) <= 1.0 && report.smallest_distance > 0.01, "{at:?} {report:?}");
     }
 }
 
@@ -216,6 +295,14 @@ fn bad_arguments_are_refused_by_name() {
             options.fixed(&[false, true]),
             vec![unit, [0.5, 0.5, 1.1]],
             "positions: point 1 is (0.5, 0.5, 1.1), fixed and outside of the box around the mesh",
+        ),
+        (&closed, options.sliding(&[true]), vec![unit, unit], "sliding: has 1 entries for 2 points"),
+        (&closed, options.fixed(&[true; 2]).sliding(&[false, true]), vec![unit, unit], "sliding: point 1 is fixed"),
+        (
+            &closed,
+            options.sliding(&[true; 2]),
+            vec![[0.5, 1.0, 0.5], [0.5, 0.9, 0.5]],
+            "positions: point 1 is (0.5, 0.9, 0.5), sliding and off the surface of the mesh",
         ),
         (&closed, options.tolerance(-1.0), vec![unit], "tolerance: -1 is not at least 0"),
         (&closed, options.tolerance(f64::NAN), vec![unit], "tolerance: NaN is not at least 0"),

@@ -351,7 +351,7 @@ FIELD(azulejo_volume_relax_options, tolerance, 72);
 FIELD(azulejo_volume_relax_options, progress, 80);
 FIELD(azulejo_volume_relax_options, progress_user, 88);
 
-SIZE(azulejo_relax_inside_options, 56);
+SIZE(azulejo_relax_inside_options, 72);
 FIELD(azulejo_relax_inside_options, struct_size, 0);
 FIELD(azulejo_relax_inside_options, max_iterations, 4);
 FIELD(azulejo_relax_inside_options, seed, 8);
@@ -360,6 +360,8 @@ FIELD(azulejo_relax_inside_options, progress, 24);
 FIELD(azulejo_relax_inside_options, progress_user, 32);
 FIELD(azulejo_relax_inside_options, fixed, 40);
 FIELD(azulejo_relax_inside_options, fixed_count, 48);
+FIELD(azulejo_relax_inside_options, sliding, 56);
+FIELD(azulejo_relax_inside_options, sliding_count, 64);
 
 SIZE(azulejo_volume_relax_report, 40);
 FIELD(azulejo_volume_relax_report, struct_size, 0);
@@ -551,6 +553,8 @@ static void signatures(void) {
     azulejo_status (*volume_report_init)(azulejo_volume_report *, size_t) = azulejo_volume_report_init;
     azulejo_status (*volume_sample)(const azulejo_context *, const azulejo_volume_options *, azulejo_points **,
                                     azulejo_volume_report *) = azulejo_volume_sample;
+    azulejo_status (*classes_in_space)(const azulejo_context *, const azulejo_volume_options *, const azulejo_classes *,
+                                       azulejo_points **, azulejo_classes_report *) = azulejo_volume_sample_classes;
     azulejo_status (*inside_options_init)(azulejo_volume_inside_options *, size_t) = azulejo_volume_inside_options_init;
     azulejo_status (*inside_report_init)(azulejo_volume_inside_report *, size_t) = azulejo_volume_inside_report_init;
     azulejo_status (*sample_inside)(const azulejo_context *, const azulejo_mesh *, const azulejo_volume_inside_options *,
@@ -619,7 +623,7 @@ static void signatures(void) {
     CHECK(mesh_with_normals && mesh_with_mask);
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
     CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
-    CHECK(volume_options_init && volume_report_init && volume_sample);
+    CHECK(volume_options_init && volume_report_init && volume_sample && classes_in_space);
     CHECK(inside_options_init && inside_report_init && sample_inside && mesh_is_closed && mesh_contains);
     CHECK(mask_create && mask_size && mask_ranks && mask_values && mask_dither && mask_dither_bytes && mask_free);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);

@@ -208,6 +208,23 @@ static azulejo_status plane_classes_narrow(const azulejo_context *context, size_
     return freed(azulejo_kdrt_sample_classes(context, &o, &of, &points, NULL), points);
 }
 
+static azulejo_status volume_of_classes(const azulejo_context *context, size_t count, double larger) {
+    const double r = volume_radius(count), own[2] = {larger * r, r};
+    double radii[4];
+    const azulejo_classes of = classes_of(radii, 2, own);
+    const azulejo_volume_options o = volume_options(0);
+    azulejo_points *points = NULL;
+    return freed(azulejo_volume_sample_classes(context, &o, &of, &points, NULL), points);
+}
+
+static azulejo_status volume_classes(const azulejo_context *context, size_t count) {
+    return volume_of_classes(context, count, 1.5);
+}
+
+static azulejo_status volume_equal_classes(const azulejo_context *context, size_t count) {
+    return volume_of_classes(context, count, 1);
+}
+
 static azulejo_status plane_4_classes(const azulejo_context *context, size_t count) {
     return plane_of_classes(context, count, 4, AZULEJO_ORDER_ANY);
 }
@@ -628,6 +645,8 @@ static const struct {
     {"plane, window", window, 8000000, MOST_ASKED},
     {"plane, 2 classes", plane_classes, 1000000, MOST_ASKED},
     {"plane, 4 classes", plane_4_classes, 1000000, MOST_ASKED},
+    {"volume, classes", volume_classes, 500000, MOST_ASKED},
+    {"volume, equal classes", volume_equal_classes, 250000, MOST_ASKED},
     {"plane, 2 classes, progressive", plane_classes_progressive, 1000000, MOST_ASKED_UNEVENLY},
     {"plane, 2 classes, narrow", plane_classes_narrow, 100000, MOST_ASKED},
     {"merge", merged, 2000000, MOST_ASKED},

@@ -108,6 +108,16 @@ static azulejo_status classes_of_plane(void *report) {
     return status;
 }
 
+static azulejo_status classes_of_cuboid(void *report) {
+    const azulejo_volume_options o = volume_options(0);
+    const azulejo_classes two = two_classes();
+    azulejo_points *out = NULL;
+    const azulejo_status status = azulejo_volume_sample_classes(context, &o, &two, &out, report);
+    CHECK((out != NULL) == (status == AZULEJO_OK));
+    azulejo_points_free(out);
+    return status;
+}
+
 static azulejo_status classes_of_mesh(void *report) {
     const azulejo_psp_options o = psp_options(0);
     const azulejo_classes two = two_classes();
@@ -301,6 +311,7 @@ static const entry entries[] = {
     {thin, REPORT(thin, 16, seconds), offsetof(azulejo_thin_report, seconds), sizeof(azulejo_thin_report), 1},
     {mask, REPORT(mask, 16, seconds), offsetof(azulejo_mask_report, seconds), sizeof(azulejo_mask_report), 1},
     {classes_of_plane, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
+    {classes_of_cuboid, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {classes_of_mesh, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {classes_with_density, REPORT(classes, 16, seconds), CLASSES_TIMES, 1},
     {merge, REPORT(kdrt_merge, 16, inserted), 0, 0, 1},

@@ -351,6 +351,20 @@ static void relaxes_inside(void) {
     options.fixed = NULL;
     REFUSED(INVALID, "fixed", azulejo_volume_relax_inside(one, cube, &options, positions, RELAXED, &out, NULL));
     options.fixed_count = 0;
+    options.sliding_count = RELAXED;
+    REFUSED(INVALID, "sliding: is NULL", azulejo_volume_relax_inside(one, cube, &options, positions, RELAXED, &out, NULL));
+    options.sliding = fixed;
+    REFUSED(INVALID, "positions: point 0", azulejo_volume_relax_inside(one, cube, &options, positions, RELAXED, &out, NULL));
+    for (i = 0; i < RELAXED; i += 5) positions[3 * i + i % 3] = 0;
+    ACCEPTED(azulejo_volume_relax_inside(one, cube, &options, positions, RELAXED, &points, NULL));
+    xyz = azulejo_points_positions(points);
+    for (i = 0; i < 3 * RELAXED; i += 15) {
+        const float *p = xyz + i;
+        CHECK(p[0] * p[1] * p[2] * (1 - p[0]) * (1 - p[1]) * (1 - p[2]) < 1e-6f);
+    }
+    azulejo_points_free(points);
+    options.sliding = NULL;
+    options.sliding_count = 0;
     positions[4] = 1.5f;
     REFUSED(INVALID, "positions: point 1", azulejo_volume_relax_inside(one, cube, &options, positions, 2, &out, NULL));
     positions[4] = NAN;
@@ -359,6 +373,62 @@ static void relaxes_inside(void) {
     CHECK(out == UNTOUCHED);
     azulejo_mesh_free(cube);
     azulejo_mesh_free(open);
+}
+
+/* Two of one radius and a smaller one: their distances, also from a given sample, the same for any threads; and bad input. */
+static void has_classes(void) {
+    static const double own[3] = {0.2, 0.2, 0.12};
+    static const float at[3] = {0.5f, 0.5f, 0.5f};
+    static const double clearances[3] = {0.3, 0, 0.1};
+    double radii[9];
+    azulejo_volume_options o = volume_options(0);
+    azulejo_classes c;
+    azulejo_points *points = NULL, *again = NULL, *out = UNTOUCHED;
+    const float *xyz;
+    const uint32_t *of;
+    size_t i, j;
+    ACCEPTED(azulejo_classes_init(&c, sizeof c));
+    ACCEPTED(azulejo_classes_radii(own, 3, 1, radii));
+    c.count = 3;
+    c.radii = radii;
+    o.given_positions = at;
+    o.given_clearances = clearances;
+    o.given_count = 1;
+    ACCEPTED(azulejo_volume_sample_classes(one, &o, &c, &points, NULL));
+    ACCEPTED(azulejo_volume_sample_classes(three, &o, &c, &again, NULL));
+    xyz = azulejo_points_positions(points);
+    of = azulejo_points_classes(points);
+    CHECK(azulejo_points_count(points) == azulejo_points_count(again) && azulejo_points_count(points) > 200);
+    CHECK(memcmp(xyz, azulejo_points_positions(again), 3 * azulejo_points_count(points) * sizeof *xyz) == 0);
+    for (i = 0; i < azulejo_points_count(points); i++) {
+        const double here[3] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+        CHECK(distance(&o, at, here) >= clearances[of[i]]);
+        for (j = 0; j < i; j++) CHECK(distance(&o, xyz + 3 * j, here) >= radii[3 * of[i] + of[j]]);
+    }
+    azulejo_points_free(points);
+    azulejo_points_free(again);
+#define NO_SET(part, change)                                                                          \
+    do {                                                                                              \
+        azulejo_volume_options o = volume_options(0);                                                 \
+        azulejo_classes d = c;                                                                        \
+        (void)(change);                                                                               \
+        REFUSED(INVALID, part, azulejo_volume_sample_classes(one, &o, &d, &out, NULL));               \
+        CHECK(out == UNTOUCHED);                                                                      \
+    } while (0)
+    NO_SET("radius: 0.1 has no effect with classes", o.radius = 0.1);
+    NO_SET("count: 7 has no effect", o.count = 7);
+    NO_SET("order: 1 has no effect", o.order = AZULEJO_ORDER_PROGRESSIVE);
+    NO_SET("quotient: 1.2 has no effect", o.quotient = 1.2);
+    NO_SET("leaf_size: 20.0 has no effect", o.leaf_size = 20);
+    NO_SET("domain_max: ", o.domain_max[2] = 0);
+    NO_SET("given_positions", o.given_count = 1);
+    NO_SET("count: 0 classes", d.count = 0);
+    NO_SET("radii", d.radii = NULL);
+    NO_SET("mask_count: 4 has no effect in space", d.mask_count = 4);
+#undef NO_SET
+    REFUSED(INVALID, "classes", azulejo_volume_sample_classes(one, &o, NULL, &out, NULL));
+    REFUSED(INVALID, "options", azulejo_volume_sample_classes(one, NULL, &c, &out, NULL));
+    REFUSED(INVALID, "out", azulejo_volume_sample_classes(one, &o, &c, NULL, NULL));
 }
 
 int main(void) {
@@ -372,6 +442,7 @@ int main(void) {
     around_in_order_and_counted(AZULEJO_BOUNDARY_BOUNDED);
     refused();
     fills_shells();
+    has_classes();
     relaxes(AZULEJO_BOUNDARY_PERIODIC);
     relaxes(AZULEJO_BOUNDARY_BOUNDED);
     relaxation_refused();

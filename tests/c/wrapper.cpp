@@ -470,6 +470,12 @@ void volumes() {
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius: -1", [&] { azulejo::volume_sample(context, options); }));
     options.leaf_size = 5;
     CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "leaf_size: 5", [&] { azulejo::volume_sample(context, options); }));
+    const azulejo::Classes two = azulejo::classes_radii(std::vector<double>{0.2, 0.3});
+    azulejo::ClassesReport counts;
+    const auto set = azulejo::volume_sample_classes(context, azulejo::VolumeOptions(), two, &counts);
+    CHECK(set.classes().size() == set.size() && counts.counts[0] > counts.counts[1] && counts.counts[1] > 10);
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "radius: -1.0 has no effect with classes",
+                 [&] { azulejo::volume_sample_classes(context, options, two); }));
 }
 
 void insides() {

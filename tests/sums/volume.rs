@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use azulejo::dcr::volume::{InsideOptions as RelaxInsideOptions, Options as RelaxOptions, relax, relax_inside};
-use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
-use azulejo::{Boundary, Context, Domain, Given, Order, Result};
+use azulejo::volume::{ClassesOptions, InsideOptions, Options, Surface, sample, sample_classes, sample_inside};
+use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Result};
 
 use super::list::List;
 use super::meshes::torus;
@@ -84,6 +84,11 @@ fn insides(context: &Context, radius: f64, list: &mut List) -> Result<()> {
     ] {
         list.samples(&format!("volume inside, {name}"), &sample_inside(context, &mesh, &options, None)?.0);
     }
+    let classes = Classes::of_radii(&[0.09, 0.09, 0.05], 0.9)?;
+    for (name, boundary) in [("torus", Boundary::Periodic), ("bounded", Boundary::Bounded)] {
+        let options = ClassesOptions::default().domain(Domain::unit(boundary)).seed(89);
+        list.samples(&format!("volume classes, {name}"), &sample_classes(context, &options, &classes, None)?);
+    }
     for (name, surface) in [("free", Surface::Open), ("around the surface", Surface::First)] {
         let (start, of) = sample_inside(context, &mesh, &free.surface(surface), None)?;
         let fixed: Vec<bool> = (0..start.len()).map(|index| index < of.surface_samples).collect();
@@ -92,5 +97,10 @@ fn insides(context: &Context, radius: f64, list: &mut List) -> Result<()> {
         list.samples(&format!("volume inside, relaxed {name}"), &relaxed.into());
         list.numbers(&format!("volume inside, relaxed {name}: report"), &[report.motion, report.smallest_distance]);
     }
+    let (start, of) = sample_inside(context, &mesh, &free.surface(Surface::First), None)?;
+    let sliding: Vec<bool> = (0..start.len()).map(|index| index < of.surface_samples).collect();
+    let options = RelaxInsideOptions::default().max_iterations(40).seed(88).sliding(&sliding);
+    let relaxed = relax_inside(context, &mesh, &options, &start.positions, None)?.0;
+    list.samples("volume inside, relaxed with a sliding surface", &relaxed.into());
     Ok(())
 }

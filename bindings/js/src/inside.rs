@@ -68,13 +68,17 @@ pub unsafe extern "C" fn azulejo_volume_relax_inside(
     count: usize,
     fixed: *const u8,
     fixed_count: usize,
+    sliding: *const u8,
+    sliding_count: usize,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let (points, fixed) = unsafe { (rows(points, count), rows(fixed, fixed_count)) };
+    // SAFETY: guaranteed by the caller.
+    let sliding = unsafe { rows(sliding, sliding_count) };
     call(|context, progress| {
-        let fixed: Vec<bool> = fixed.iter().map(|&entry| entry != 0).collect();
-        let options =
-            dcr::InsideOptions::default().max_iterations(max_iterations).tolerance(tolerance).seed(seed).fixed(&fixed);
+        let [fixed, sliding] = [fixed, sliding].map(|of| of.iter().map(|&entry| entry != 0).collect::<Vec<bool>>());
+        let options = dcr::InsideOptions::default().max_iterations(max_iterations).tolerance(tolerance).seed(seed);
+        let options = options.fixed(&fixed).sliding(&sliding);
         let (relaxed, report) = dcr::relax_inside(context, &mesh.0, &options, points, progress)?;
         Ok(relaxation(relaxed, &report))
     })

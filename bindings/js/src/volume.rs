@@ -1,8 +1,8 @@
 //! Sets of cuboids, and their relaxation.
 
 use azulejo::dcr::volume as dcr;
-use azulejo::volume::{Amount, Options, sample};
-use azulejo::{Boundary, Domain};
+use azulejo::volume::{Amount, ClassesOptions, Options, sample, sample_classes};
+use azulejo::{Boundary, Classes, Domain};
 
 use crate::analysis::Cuboid;
 use crate::answer::{Answer, call};
@@ -51,6 +51,31 @@ pub unsafe extern "C" fn azulejo_volume_sample(
         let (samples, report) = sample(context, &options, progress)?;
         let report = vec![report.radius, report.covering_radius];
         Ok(Answer::default().and(samples.positions).and(samples.ranks).and(report))
+    })
+}
+
+/// The samples of several classes, and the class of each.
+///
+/// # Safety
+/// The pointers are to arguments of these sizes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_sample_classes(
+    cuboid: &Cuboid,
+    seed: u64,
+    positions: *const [f32; 3],
+    count: usize,
+    clearances: *const f64,
+    clearance_count: usize,
+    radii: *const f64,
+    radius_count: usize,
+) -> i32 {
+    // SAFETY: guaranteed by the caller.
+    let (given, radii) = unsafe { (given(positions, count, clearances, clearance_count), rows(radii, radius_count)) };
+    call(|context, progress| {
+        let classes = Classes::new(radii.len().isqrt(), radii)?;
+        let options = ClassesOptions::default().domain(cuboid.domain()).seed(seed).given(given);
+        let samples = sample_classes(context, &options, &classes, progress)?;
+        Ok(Answer::default().and(samples.positions).and(samples.classes))
     })
 }
 

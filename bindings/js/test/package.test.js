@@ -407,6 +407,20 @@ function coveringInSpace(positions, low, high, wrap, cells = 20) {
     return Math.sqrt(most);
 }
 
+test("classes in cuboids keep their distances", () => {
+    const radii = azulejo.classesRadii([0.25, 0.15]);
+    const given = { givenPositions: [0.5, 0.5, 0.5], givenClearances: [0.4, 0.1] };
+    const { positions, classes } = azulejo.volumeSampleClasses({ boundary: "bounded", ...given }, radii);
+    const at = (i) => positions.subarray(3 * i, 3 * i + 3);
+    const distance = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    assert.ok(classes.length === positions.length / 3 && classes.includes(0) && classes.includes(1));
+    for (let i = 0; i < classes.length; i++) {
+        assert.ok(distance(at(i), [0.5, 0.5, 0.5]) >= given.givenClearances[classes[i]]);
+        for (let j = 0; j < i; j++) assert.ok(distance(at(i), at(j)) >= radii[2 * classes[i] + classes[j]]);
+    }
+    assert.throws(() => azulejo.volumeSampleClasses({}, [1, 2, 3, 4]), /radii: \[0\]\[1\]/);
+});
+
 test("sets inside meshes are conflict-free, maximal below the surface, and of closed meshes alone", () => {
     const corners = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((k) => [k & 1, (k >> 1) & 1, k >> 2]);
     const squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -427,6 +441,11 @@ test("sets inside meshes are conflict-free, maximal below the surface, and of cl
     assert.deepEqual(relaxed.positions.subarray(0, 3 * surfaceSamples), start.subarray(0, 3 * surfaceSamples));
     const moved = relaxed.positions.subarray(3 * surfaceSamples);
     assert.ok(mesh.contains(moved).every((is) => is === 1) && moved.some((x, i) => x !== start[3 * surfaceSamples + i]));
+    const slid = azulejo.volumeRelaxInside(mesh, start, { sliding: fixed, maxIterations: 30 }).positions;
+    const toSurface = (i) => Math.min(...slid.subarray(3 * i, 3 * i + 3).map((x) => Math.min(Math.abs(x), Math.abs(1 - x))));
+    assert.ok(fixed.every((slides, i) => !slides || toSurface(i) < 1e-6));
+    assert.ok(fixed.some((slides, i) => slides && slid[3 * i] !== start[3 * i]));
+    assert.throws(() => azulejo.volumeRelaxInside(mesh, [0.5, 0.5, 0.5], { sliding: [1] }), /positions: point 0 is .*sliding/);
     assert.throws(() => azulejo.volumeRelaxInside(mesh, [0.5, 0.5, 2]), /positions: point 0 is .*, outside the mesh/);
     assert.throws(() => azulejo.volumeRelaxInside(mesh, [0.5, 0.5, 0.5], { fixed: [1, 0] }), /fixed: has 2 entries/);
     const counted = azulejo.volumeSampleInside(mesh, { count: 150, order: "progressive", tolerance: 0.1 });

@@ -423,6 +423,7 @@ pub(crate) fn dcr_surface_relax(
 ///
 /// positions: the points, float32, shape (n, 3), in domain_min <= x < domain_max; or Points, which have a domain of their own.
 /// domain_min, domain_max: the corners; default the unit cube. boundary: "periodic" or "bounded".
+/// sliding: bool, shape (n,): True for each point that moves along the surface; default: none. No point is fixed and sliding.
 /// max_iterations: the largest number of steps; the forces of a step depend on it.
 /// tolerance: the motion at which the set has converged; default 0.001.
 /// The others are those of dcr_relax.
@@ -460,7 +461,8 @@ pub(crate) fn volume_relax(
 /// Moves points inside a closed mesh until they are evenly spread. None leaves the inside, which is decided exactly.
 ///
 /// mesh: as in volume_sample_inside. An even number of triangles must share each edge.
-/// positions: the points, float32, shape (n, 3), inside the mesh; those that are fixed only in the box around it.
+/// positions: the points, float32, shape (n, 3), inside the mesh; those that are fixed only in the box around it, those that slide
+///     on its surface.
 /// fixed: bool, shape (n,): True for each point that stays where it is, such as the samples of the surface, which are the first
 ///     ones of volume_sample_inside(surface="first"); default: none. Points that move keep their distance from them.
 /// max_iterations: the largest number of steps; the forces of a step depend on it.
@@ -471,13 +473,14 @@ pub(crate) fn volume_relax(
 /// densest packing, (sqrt(2) volume / n)^(1/3). Points that are clustered are not redistributed.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, positions, *, fixed=None, max_iterations=100, tolerance=None, seed=0, threads=0, progress=None
+    mesh, positions, *, fixed=None, sliding=None, max_iterations=100, tolerance=None, seed=0, threads=0, progress=None
 ))]
 pub(crate) fn volume_relax_inside(
     py: Python<'_>,
     #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     positions: &Bound<'_, PyAny>,
     fixed: Option<&Bound<'_, PyAny>>,
+    sliding: Option<&Bound<'_, PyAny>>,
     #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
     #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
     #[pyo3(from_py_with = whole::seed)] seed: i128,
@@ -486,15 +489,20 @@ pub(crate) fn volume_relax_inside(
 ) -> PyResult<Points> {
     let positions = Positions::read("positions", positions)?.around(mesh.shared.origin())?;
     let points = positions.get()?;
-    let fixed = fixed.map(|fixed| Ok::<_, PyErr>(Array::<bool>::read("fixed", fixed)?.line()?.to_vec())).transpose()?;
-    if let Some(fixed) = fixed.as_ref().filter(|fixed| fixed.len() != points.len()) {
-        return Err(invalid("fixed", format!("has {} entries for {} points", fixed.len(), points.len())));
-    }
-    let fixed = fixed.unwrap_or_default();
+    let flags = |name, flags: Option<&Bound<'_, PyAny>>| {
+        let Some(flags) = flags else { return Ok(Vec::new()) };
+        let flags = Array::<bool>::read(name, flags)?.line()?.to_vec();
+        if flags.len() != points.len() {
+            return Err(invalid(name, format!("has {} entries for {} points", flags.len(), points.len())));
+        }
+        Ok(flags)
+    };
+    let (fixed, sliding) = (flags("fixed", fixed)?, flags("sliding", sliding)?);
     let request = volume::InsideOptions::default()
         .max_iterations(natural("max_iterations", max_iterations)?)
         .seed(natural("seed", seed)?)
-        .fixed(&fixed);
+        .fixed(&fixed)
+        .sliding(&sliding);
     let request = request.tolerance(tolerance.unwrap_or(request.tolerance));
     let (relaxed, report) = Watch::new(py, threads, progress)?
         .run(|context, progress| volume::relax_inside(context, &mesh.shared, &request, points, progress))?;

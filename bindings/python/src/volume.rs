@@ -1,12 +1,13 @@
 //! Maximal sets of cuboids.
 
-use azulejo_core::volume::{self, Options};
+use azulejo_core::volume::{self, ClassesOptions, Options};
 use pyo3::prelude::*;
 
 use crate::argument::{
     amount, amount_of, callable, maybe_real, maybe_triple, natural, number, one_of, order, real, whole,
 };
 use crate::array::GivenArrays;
+use crate::classes::matrix;
 use crate::frame::Frame;
 use crate::points::Points;
 use crate::report::report;
@@ -88,4 +89,39 @@ pub(crate) fn volume_sample(
     let (samples, report) =
         Watch::new(py, threads, progress)?.run(|context, progress| volume::sample(context, &request, progress))?;
     Points::cuboid(py, samples, &frame)?.with_report(py, VolumeReport::from(report))
+}
+
+/// Samples of several classes in a cuboid or torus in space: samples of classes i and j are at least radii[i, j] apart, and no
+/// class can take another sample. Classes of larger own radii come first; those of equal ones get about equal shares.
+///
+/// radii: float64, shape (k, k), symmetric; see classes_radii.
+/// given_clearances: float64, shape (m, k): one for each class; default: their own radii.
+/// The others are those of volume_sample.
+///
+/// Returns Points with classes, sorted by class.
+#[pyfunction]
+#[pyo3(signature = (
+    radii, *, domain_min=None, domain_max=None, boundary="periodic", seed=0, given_positions=None, given_clearances=None,
+    threads=0, progress=None
+))]
+pub(crate) fn volume_sample_classes(
+    py: Python<'_>,
+    radii: &Bound<'_, PyAny>,
+    #[pyo3(from_py_with = maybe_triple::domain_min)] domain_min: Option<[f64; 3]>,
+    #[pyo3(from_py_with = maybe_triple::domain_max)] domain_max: Option<[f64; 3]>,
+    boundary: &str,
+    #[pyo3(from_py_with = whole::seed)] seed: i128,
+    given_positions: Option<&Bound<'_, PyAny>>,
+    given_clearances: Option<&Bound<'_, PyAny>>,
+    #[pyo3(from_py_with = whole::threads)] threads: i128,
+    #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
+) -> PyResult<Points> {
+    let classes = matrix(radii)?;
+    let frame = Frame::new(domain_min, domain_max, boundary)?;
+    let given = GivenArrays::read(given_positions, given_clearances, frame.origin)?;
+    let request = ClassesOptions::default().domain(frame.domain).seed(natural("seed", seed)?).given(given.samples()?);
+    let samples = Watch::new(py, threads, progress)?
+        .run(|context, progress| volume::sample_classes(context, &request, &classes, progress))?;
+    let classes = samples.classes.clone();
+    Ok(Points::cuboid(py, samples, &frame)?.with_classes(py, classes))
 }

@@ -81,6 +81,19 @@ def test_relaxed_points_stay_inside(surface):
     assert (again.positions == positions).all()
 
 
+def test_the_samples_of_the_surface_slide():
+    start = azulejo.volume_sample_inside(BOX, 0.15, surface="first")
+    sliding = np.arange(len(start)) < start.report.surface_samples
+    points = azulejo.volume_relax_inside(BOX, start.positions, sliding=sliding, max_iterations=60)
+    (slid, rest), size = (points.positions[sliding], points.positions[~sliding]), CORNERS[7]
+    assert (np.minimum(slid, size - slid).min(axis=1) < 1e-6).all() and azulejo.Mesh(CORNERS, FACES).contains(rest).all()
+    assert (slid >= 0).all() and (slid <= size).all() and points.report.smallest_distance > 0.16
+    with pytest.raises(ValueError, match="sliding: point 0 is fixed"):
+        azulejo.volume_relax_inside(BOX, start.positions, fixed=sliding, sliding=sliding)
+    with pytest.raises(ValueError, match="sliding: has 1 entries for"):
+        azulejo.volume_relax_inside(BOX, start.positions, sliding=[True])
+
+
 def test_relaxation_inside_refuses_what_it_cannot_do():
     inside = [[0.5, 0.5, 0.5], [0.5, 0.5, 1.5]]
     for mesh, positions, fixed, said in [

@@ -89,6 +89,29 @@ def test_given_samples_keep_their_clearances():
     assert distances(alike, given, period=1.0).min() >= 0.1
 
 
+def test_classes_keep_their_distances():
+    radii = azulejo.classes_radii([0.25, 0.15, 0.15])
+    given, clearances = np.float32([[0.5, 0.5, 0.5]]), [[0.4, 0.0, 0.1]]
+    points = azulejo.volume_sample_classes(radii, boundary="bounded", given_positions=given, given_clearances=clearances)
+    of, at = points.classes, points.positions.astype(float)
+    apart = np.linalg.norm(at[:, None] - at, axis=2) + np.diag(np.full(len(at), np.inf))
+    assert (apart >= radii[of][:, of]).all() and (np.linalg.norm(at - given, axis=1) >= np.array(clearances)[0][of]).all()
+    shares = np.bincount(of)
+    assert len(shares) == 3 and shares[0] > 10 and abs(shares[1] / shares[2] - 1) < 0.2
+    # For each class no place is open.
+    for own in range(3):
+        free = np.ones(len(places([0] * 3, [1] * 3)), bool)
+        for position, radius in zip(at, radii[own][of]):
+            free &= np.linalg.norm(places([0] * 3, [1] * 3) - position, axis=1) > radius + 1e-6
+        free &= np.linalg.norm(places([0] * 3, [1] * 3) - given[0], axis=1) > clearances[0][own]
+        assert not free.any()
+    for bad, said in [([[1, 2], [3, 1]], "radii"), (np.eye(3)[:2], "radii"), ([[1e-9]], "radii")]:
+        with pytest.raises(ValueError, match=said):
+            azulejo.volume_sample_classes(bad)
+    far = azulejo.volume_sample_classes([[0.4]], domain_min=(1e7, 0, 0), domain_max=(1e7 + 1, 1, 1))
+    assert far.positions.dtype == np.float64 and (far.classes == 0).all()
+
+
 def test_a_cuboid_far_from_the_origin_is_in_doubles():
     low, high = (3.5e6, -2e6, 100.0), (3.5e6 + 1, -2e6 + 1, 101.0)
     points = azulejo.volume_sample(0.2, domain_min=low, domain_max=high)

@@ -55,6 +55,9 @@ pub struct Relax {
     /// The number of points that stay where they are, the first ones, as `azulejo volume --surface-first` says it.
     #[arg(long, value_name = "COUNT", requires = "inside")]
     fixed: Option<usize>,
+    /// The number of points that move along the surface only, the first ones.
+    #[arg(long, value_name = "COUNT", requires = "inside", conflicts_with = "fixed")]
+    sliding: Option<usize>,
     /// The neighbours that act on a point.
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
@@ -113,14 +116,15 @@ impl Relax {
         let mesh = input::mesh_at_origin(path)?;
         let set = self.format.read_samples(&self.input, [0.0; 3])?;
         self.refuse_classes(&set)?;
-        let fixed: Vec<bool> = match self.fixed {
+        let first = |count: Option<usize>, are: &str| match count {
             Some(count) if count > set.positions.len() => {
-                return Err(self.refused(&format!("has {} points, fewer than are fixed", set.positions.len())));
+                Err(self.refused(&format!("has {} points, fewer than are {are}", set.positions.len())))
             }
-            Some(count) => (0..set.positions.len()).map(|index| index < count).collect(),
-            None => Vec::new(),
+            Some(count) => Ok((0..set.positions.len()).map(|index| index < count).collect::<Vec<bool>>()),
+            None => Ok(Vec::new()),
         };
-        let mut options = volume::InsideOptions::default().seed(self.common.seed).fixed(&fixed);
+        let (fixed, sliding) = (first(self.fixed, "fixed")?, first(self.sliding, "sliding")?);
+        let mut options = volume::InsideOptions::default().seed(self.common.seed).fixed(&fixed).sliding(&sliding);
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let start = Instant::now();
         let relax =

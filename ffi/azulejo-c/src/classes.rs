@@ -65,13 +65,13 @@ impl azulejo_classes {
         Ok(Classes::new(count, radii.as_flattened())?)
     }
 
-    /// The classes of a plane, which has no triangles for masks.
+    /// The classes of a plane or a cuboid, which has no triangles for masks.
     ///
     /// # Safety
     /// As [`azulejo_classes::request`].
-    pub(crate) unsafe fn of_plane(&self) -> Result<Classes, Failure> {
-        check_unused("mask_count", self.mask_count, 0, "in the plane")?;
-        check_unused("masks", self.masks, ptr::null(), "in the plane")?;
+    pub(crate) unsafe fn without_masks(&self, place: &str) -> Result<Classes, Failure> {
+        check_unused("mask_count", self.mask_count, 0, place)?;
+        check_unused("masks", self.masks, ptr::null(), place)?;
         // SAFETY: handed on from the caller.
         unsafe { self.request() }
     }
@@ -90,8 +90,7 @@ impl azulejo_classes {
     }
 }
 
-/// The report of azulejo_kdrt_sample_classes, azulejo_psp_sample_classes and
-/// azulejo_psp_classes_with_density.
+/// The report of calls that make samples of several classes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_classes_report {

@@ -55,7 +55,7 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: the same.
-        let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
+        let classes = unsafe { growing::read("classes", classes)?.without_masks("in the plane") }?;
         let request = options.with_classes(&classes)?;
         let start = Instant::now();
         let set = context.run(options.watch(), |context, progress| sample(context, &request, progress))?;
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn azulejo_kdrt_create_classes(
         // SAFETY: handed on from the caller.
         let options = unsafe { growing::read("options", options) }?;
         // SAFETY: the same.
-        let classes = unsafe { growing::read("classes", classes)?.of_plane() }?;
+        let classes = unsafe { growing::read("classes", classes)?.without_masks("in the plane") }?;
         let request = options.with_classes(&classes)?;
         let plane = context.run(options.watch(), |context, progress| Plane::new(context, &request, progress))?;
         Ok(azulejo_kdrt { plane })

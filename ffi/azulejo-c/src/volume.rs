@@ -1,13 +1,15 @@
 //! Maximal sets of cuboids.
 
 use std::ffi::c_void;
+use std::time::Instant;
 
 use azulejo_core::{Order, volume};
 
 use crate::boundary::{Out, check_reserved, check_unused};
+use crate::classes::{azulejo_classes, azulejo_classes_report};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
-use crate::given::given;
+use crate::given::{given, given_by_class};
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles;
 use crate::order::{AZULEJO_ORDER_ANY, order};
@@ -143,6 +145,23 @@ impl azulejo_volume_options {
         let options = options.domain(domain).seed(self.seed).order(order).quotient(quotient);
         Ok(options.given(given).leaf_size(self.leaf_size))
     }
+
+    /// The options of a set of so many classes.
+    ///
+    /// # Safety
+    /// As [`given_by_class`] for the given samples.
+    unsafe fn of_classes<'a>(&self, classes: usize) -> Result<volume::ClassesOptions<'a>, Failure> {
+        let domain = domain(self.domain_min, self.domain_max, self.boundary)?;
+        check_unused("radius", self.radius, 0.0, "with classes")?;
+        check_unused("count", self.count, 0, "with classes")?;
+        check_unused("order", self.order, AZULEJO_ORDER_ANY, "with classes")?;
+        check_unused("quotient", self.quotient, 0.0, "with classes")?;
+        check_unused("leaf_size", self.leaf_size, 0.0, "with classes")?;
+        check_reserved(self.reserved)?;
+        // SAFETY: handed on from the caller.
+        let given = unsafe { given_by_class(self.given_positions, self.given_clearances, self.given_count, classes) }?;
+        Ok(volume::ClassesOptions::default().domain(domain).seed(self.seed).given(given))
+    }
 }
 
 /// Makes a maximal, conflict-free set of samples of a cuboid, x y z each: no place of it is farther
@@ -187,6 +206,40 @@ pub unsafe extern "C" fn azulejo_volume_sample(
     })
 }
 
+/// Makes samples of several classes in a cuboid, as azulejo_classes says, up to 7 float spacings.
+/// They are sorted by class; classes of equal radii get about equal shares. O(samples). Options:
+/// the domain, its boundary, the seed, given samples and progress.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_volume_sample_classes(
+    context: *const azulejo_context,
+    options: *const azulejo_volume_options,
+    classes: *const azulejo_classes,
+    out: *mut *mut azulejo_points,
+    report: *mut azulejo_classes_report,
+) -> azulejo_status {
+    // SAFETY: handed on from the caller.
+    let out = unsafe { Out::new(out) };
+    handles::create(out, || {
+        // SAFETY: handed on from the caller.
+        let context = unsafe { handles::get("context", context) }?;
+        // SAFETY: handed on from the caller.
+        let (options, report): (azulejo_volume_options, _) =
+            unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
+        // SAFETY: the same.
+        let classes = unsafe { growing::read("classes", classes)?.without_masks("in space") }?;
+        // SAFETY: the same.
+        let request = unsafe { options.of_classes(classes.count()) }?;
+        let start = Instant::now();
+        let watch = Watch::new(options.progress, options.progress_user);
+        let set =
+            context.run(watch, |context, progress| volume::sample_classes(context, &request, &classes, progress))?;
+        if let Some(report) = report {
+            report.write(azulejo_classes_report::of(classes.count(), &set.classes, start));
+        }
+        Ok(azulejo_points::space(set))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -196,5 +249,8 @@ mod tests {
         let options = azulejo_volume_options { radius: 0.3, ..azulejo_volume_options::DEFAULT };
         // SAFETY: there are no given samples.
         assert_eq!(unsafe { options.request() }.unwrap(), volume::Options::new(0.3));
+        // SAFETY: the same.
+        let of_classes = unsafe { azulejo_volume_options::DEFAULT.of_classes(2) }.unwrap();
+        assert_eq!(of_classes, volume::ClassesOptions::default());
     }
 }

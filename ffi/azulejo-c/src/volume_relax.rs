@@ -83,6 +83,10 @@ pub struct azulejo_relax_inside_options {
     pub fixed: *const u8,
     /// 0, the default, for none, or the number of points.
     pub fixed_count: usize,
+    /// Likewise: it stays on the surface. Default NULL: none.
+    pub sliding: *const u8,
+    /// Default 0, as fixed_count.
+    pub sliding_count: usize,
 }
 
 growing!(azulejo_relax_inside_options requires fixed_count {
@@ -93,13 +97,16 @@ growing!(azulejo_relax_inside_options requires fixed_count {
     progress_user: std::ptr::null_mut(),
     fixed: std::ptr::null(),
     fixed_count: 0,
+    sliding: std::ptr::null(),
+    sliding_count: 0,
 });
 
 impl azulejo_relax_inside_options {
-    fn request<'a>(&self, fixed: &'a [bool]) -> InsideOptions<'a> {
+    fn request<'a>(&self, [fixed, sliding]: [&'a [bool]; 2]) -> InsideOptions<'a> {
         let options = InsideOptions::default();
         let tolerance = if self.tolerance < 0.0 { options.tolerance } else { self.tolerance };
-        options.max_iterations(self.max_iterations).tolerance(tolerance).seed(self.seed).fixed(fixed)
+        let options = options.max_iterations(self.max_iterations).tolerance(tolerance).seed(self.seed);
+        options.fixed(fixed).sliding(sliding)
     }
 }
 
@@ -209,11 +216,9 @@ pub unsafe extern "C" fn azulejo_relax_inside_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. No point
+/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. None
 /// leaves the inside (azulejo_mesh_contains). Clustered ones are not redistributed.
-///
-/// positions: inside; those that are fixed, such as the first of azulejo_volume_sample_inside, only
-/// in the box around the mesh.
+/// positions: those that are fixed in the box around the mesh, those that slide on its surface.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_relax_inside(
     context: *const azulejo_context,
@@ -233,12 +238,14 @@ pub unsafe extern "C" fn azulejo_volume_relax_inside(
         let (options, report): (azulejo_relax_inside_options, _) =
             unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: handed on from the caller.
-        let (points, fixed) = unsafe {
+        let (points, fixed, sliding) = unsafe {
             let points = rows::<f32, 3>("positions", positions, "count", count)?;
-            (points, rows::<u8, 1>("fixed", options.fixed, "fixed_count", options.fixed_count)?)
+            let fixed = rows::<u8, 1>("fixed", options.fixed, "fixed_count", options.fixed_count)?;
+            (points, fixed, rows::<u8, 1>("sliding", options.sliding, "sliding_count", options.sliding_count)?)
         };
         let fixed = collect("fixed", fixed.iter().map(|&[entry]| entry != 0))?;
-        let request = options.request(&fixed);
+        let sliding = collect("sliding", sliding.iter().map(|&[entry]| entry != 0))?;
+        let request = options.request([&fixed, &sliding]);
         let watch = Watch::new(options.progress, options.progress_user);
         let (relaxed, done) = context
             .run(watch, |context, progress| volume::relax_inside(context, &mesh.shared, &request, points, progress))?;
@@ -259,6 +266,6 @@ mod tests {
     fn the_defaults_are_those_of_the_core() {
         let request = azulejo_volume_relax_options::DEFAULT.request().unwrap();
         assert_eq!(request, Options::new(Domain::unit(Boundary::Periodic)));
-        assert_eq!(azulejo_relax_inside_options::DEFAULT.request(&[]), InsideOptions::default());
+        assert_eq!(azulejo_relax_inside_options::DEFAULT.request([&[]; 2]), InsideOptions::default());
     }
 }

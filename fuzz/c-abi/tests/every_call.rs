@@ -246,6 +246,10 @@ fn planes() {
         (options.given_positions, options.given_clearances) = (xyz.as_ptr(), &raw const clearance);
         options.given_count = 1;
         read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
+        let of_classes = defaults(azulejo_volume_options_init);
+        read_and_free(made(|out| {
+            azulejo_volume_sample_classes(context.get(), &of_classes, &classes, out, std::ptr::null_mut())
+        }));
         (options.radius, options.count, options.order) = (0.0, 3, AZULEJO_ORDER_PROGRESSIVE);
         read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
 
@@ -403,6 +407,13 @@ fn surfaces() {
             azulejo_volume_relax_inside(handle, solid.get(), &options, inside.as_ptr(), 2, out, &raw mut report)
         }));
         assert!(count == 2 && report.smallest_distance > 0.25);
+        (options.fixed, options.fixed_count) = (null(), 0);
+        let (on_surface, sliding) = ([0.25f32, 0.25, 0.0], [1u8]);
+        (options.sliding, options.sliding_count) = (sliding.as_ptr(), 1);
+        let count = read_and_free(made(|out| {
+            azulejo_volume_relax_inside(handle, solid.get(), &options, on_surface.as_ptr(), 1, out, null_mut())
+        }));
+        assert_eq!(count, 1);
     }
     let mut options = defaults(azulejo_psp_options_init);
     (options.radius, options.engine) = (0.9, AZULEJO_ENGINE_RASTERISER);

@@ -7,6 +7,11 @@
 //! Any other step is made if its end is inside. If not, it ends just inside of the place of the surface nearest to where it led, so
 //! that points are held back as by the walls of a cuboid, and slide along them. If that is outside as well, as in a corner narrower
 //! than the layer in which points stand, the step is halved, and refused in the end.
+//!
+//! Points that slide stand on the surface: the part of a step along its plane is made, and ends at the place of the surface nearest
+//! to where it led, or as far beyond an edge on its other side. So they do not change to another sheet that is farther than a step.
+
+use glam::DVec3;
 
 use crate::dcr::volume::torus::{Place, VolumeTorus};
 use crate::error::{Error, Result};
@@ -41,11 +46,21 @@ const ROOM: f64 = 1e-6;
 const ROUNDING: f64 = 1e-6;
 const ROUNDING_OF_SIZE: f64 = 2e-7;
 
+/// The freedom of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Freedom {
+    /// It stays where it is.
+    Fixed,
+    /// It moves on the surface.
+    Slides,
+    /// It moves inside.
+    Free,
+}
+
 /// A bound on the distance of the surface from a point.
 #[derive(Clone, Copy)]
 pub struct Near {
-    /// True if the point stays.
-    pub is_fixed: bool,
+    pub freedom: Freedom,
     /// The distance from the surface at which it is held back, in spacings.
     standoff: f32,
     /// The steps after which the surface is searched for again.
@@ -55,16 +70,17 @@ pub struct Near {
     /// The place of the surface that was found last, in spacings from the corner of the torus, and the direction inwards there; that
     /// is 0 if there is none.
     foot: [f32; 3],
+    /// Of points that slide, the normal of the triangle, towards either side.
     inwards: [f32; 3],
 }
 
 impl Near {
     /// Nothing is known yet of the surface around a point of the user's order.
-    pub fn unknown(index: u32, is_fixed: bool) -> Self {
+    pub fn unknown(index: u32, freedom: Freedom) -> Self {
         // Multiples of the golden ratio differ from all before them by about 1 / index, modulo 1.
         let share = f64::from(index.wrapping_mul(0x9e37_79b9)) / f64::from(u32::MAX);
         Self {
-            is_fixed,
+            freedom,
             standoff: (STANDOFF * (1.0 + share)) as f32,
             patience: 0,
             clearance: 0.0,
@@ -83,14 +99,16 @@ pub struct Inside<'a> {
     torus: VolumeTorus,
     points: &'a [[f32; 3]],
     fixed: &'a [bool],
+    sliding: &'a [bool],
     /// The error of places, in spacings, and how much the clearance shrinks beyond the length of a step.
     margin: f64,
     lost: f32,
 }
 
 impl<'a> Inside<'a> {
-    /// Points inside a closed mesh; those that are fixed in the box around it, and none are if `fixed` is empty.
-    pub fn new(mesh: &Mesh, interior: &'a Interior, points: &'a [[f32; 3]], fixed: &'a [bool]) -> Self {
+    /// Points inside a closed mesh: those that are fixed, in the box around it, and those that slide, on its surface. Either list may
+    /// be empty: none then is.
+    pub fn new(mesh: &Mesh, interior: &'a Interior, points: &'a [[f32; 3]], [fixed, sliding]: [&'a [bool]; 2]) -> Self {
         let (bounds, volume) = (mesh.bounds(), interior.volume());
         let [low, high] = [bounds.0, bounds.1].map(|corner| corner.map(f64::from));
         let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
@@ -107,6 +125,7 @@ impl<'a> Inside<'a> {
             torus,
             points,
             fixed,
+            sliding,
             margin: 4.0 * (floats + unit) + ROUNDING_OF_SIZE * size / torus.spacing(),
             lost: (ROUNDING + 4.0 * unit) as f32,
         }
@@ -124,29 +143,46 @@ impl<'a> Inside<'a> {
         if distance > 0.0 { distance } else { self.torus.spacing() }
     }
 
-    /// Refuses points outside, and fixed ones outside of the box around the mesh.
+    /// Refuses free points outside, fixed ones outside of the box around the mesh, and sliding ones that are off the surface.
     pub fn check(&self, context: &Context) -> Result<()> {
         let [low, high] = self.bounds;
-        let is_allowed = |index: usize| {
+        let refused = |index: usize| {
             let point = self.points[index];
-            match self.is_fixed(index as u32) {
-                true => (0..3).all(|axis| (low[axis]..=high[axis]).contains(&point[axis])),
-                false => self.interior.contains(point),
-            }
+            let (is_allowed, place) = match self.freedom(index as u32) {
+                Freedom::Fixed => (
+                    (0..3).all(|axis| (low[axis]..=high[axis]).contains(&point[axis])),
+                    "fixed and outside of the box around",
+                ),
+                Freedom::Slides => (self.is_on_surface(point), "sliding and off the surface of"),
+                Freedom::Free => (self.interior.contains(point), "outside"),
+            };
+            (!is_allowed).then_some((index, place))
         };
         let tasks = chunks(self.points.len());
-        let find = |task: usize| tasks.range(task).find(|&index| !is_allowed(index));
+        let find = |task: usize| tasks.range(task).find_map(refused);
         let refused = context.run(None, |job| job.map(tasks.len(), find))?.into_iter().flatten().next();
-        refused.map_or(Ok(()), |index| {
-            let place = self.points[index].map(|x| x.to_string()).join(", ");
-            let outside = if self.is_fixed(index as u32) { "fixed and outside of the box around" } else { "outside" };
-            Err(Error::invalid("positions", format!("point {index} is ({place}), {outside} the mesh")))
+        refused.map_or(Ok(()), |(index, place)| {
+            let point = self.points[index].map(|x| x.to_string()).join(", ");
+            Err(Error::invalid("positions", format!("point {index} is ({point}), {place} the mesh")))
         })
     }
 
-    /// True if a point of the user's order stays.
-    pub fn is_fixed(&self, index: u32) -> bool {
-        self.fixed.get(index as usize).is_some_and(|&is_fixed| is_fixed)
+    /// True if a point is as near to the surface as the points that it holds back.
+    fn is_on_surface(&self, point: [f32; 3]) -> bool {
+        let within = (STANDOFF + self.margin) * self.torus.spacing();
+        self.interior.nearest(point.map(f64::from), within).is_some()
+    }
+
+    /// The freedom of a point of the user's order.
+    pub fn freedom(&self, index: u32) -> Freedom {
+        let is_one = |of: &[bool]| of.get(index as usize).is_some_and(|&is_one| is_one);
+        if is_one(self.fixed) {
+            Freedom::Fixed
+        } else if is_one(self.sliding) {
+            Freedom::Slides
+        } else {
+            Freedom::Free
+        }
     }
 
     /// The float of a point at a place: the one with which it began, if it is there.
@@ -160,9 +196,24 @@ impl<'a> Inside<'a> {
         self.interior.contains(self.torus.leave(place))
     }
 
+    /// The place of a point that is moved from another one: none where it may not be, or where it would be back.
+    pub fn parted(&self, index: u32, from: Place, step: [f32; 3]) -> Option<Place> {
+        match self.freedom(index) {
+            Freedom::Slides => {
+                let to = DVec3::from_array(self.along(from)) + DVec3::from_array(step.map(f64::from));
+                let foot = self.foot(to, SIGHT)?.0;
+                Some(self.torus.place(foot.to_array())).filter(|&place| place != from)
+            }
+            _ => Some(self.torus.moved(from, step, self.torus.per_spacing()).0).filter(|&to| self.holds(to)),
+        }
+    }
+
     /// The place of a point after a step of this length and direction, in spacings, which is changed where the surface holds it back.
     #[inline(always)]
     pub fn moved(&self, from: Place, step: &mut [f32; 3], near: &mut Near) -> Place {
+        if near.freedom == Freedom::Slides {
+            return self.slid(from, step, near);
+        }
         let to = self.torus.moved(from, *step, self.torus.per_spacing()).0;
         let squared = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
         let rest = near.clearance - squared.sqrt() * (1.0 + ROUNDING as f32) - self.lost;
@@ -173,6 +224,45 @@ impl<'a> Inside<'a> {
         self.moved_near_surface(from, to, step, near)
     }
 
+    /// The place of a point of the surface after a step, which becomes the way along the surface.
+    #[inline(never)]
+    fn slid(&self, from: Place, step: &mut [f32; 3], near: &mut Near) -> Place {
+        near.turn_along(step, true);
+        let way = DVec3::from_array(step.map(f64::from));
+        // Not held back by the walls of the torus, which touch the surface.
+        let to = DVec3::from_array(self.along(from)) + way;
+        // The surface is no farther than the step was long, but for where the point stood.
+        let within = way.length() * (1.0 + ROUNDING) + STANDOFF + self.margin;
+        let Some((mut foot, mut normal)) = self.foot(to, within) else {
+            *step = [0.0; 3];
+            return from;
+        };
+        // The rest of a step beyond an edge is made on the other side of it, which is where the normal leads, one way or the other.
+        let (rest, along) = (to.distance(foot), DVec3::from_array(near.inwards.map(f64::from)));
+        if rest > STANDOFF + self.margin {
+            let turned = [along, -along].map(|along| foot + rest * along);
+            let found = turned.into_iter().filter_map(|place| Some((place, self.foot(place, rest)?)));
+            let distance = |&(place, (foot, _)): &(DVec3, (DVec3, DVec3))| place.distance(foot);
+            if let Some((_, found)) = found.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+                (foot, normal) = found;
+            }
+        }
+        near.inwards = normal.as_vec3().to_array();
+        let place = self.torus.place(foot.to_array());
+        let unit = self.torus.unit();
+        *step = std::array::from_fn(|axis| {
+            (f64::from(place[axis].wrapping_sub(from[axis]).cast_signed()) * unit[axis]) as f32
+        });
+        place
+    }
+
+    /// The place of the surface nearest to one, if it is near enough, in spacings from the corner of the torus, and the normal there.
+    fn foot(&self, place: DVec3, within: f64) -> Option<(DVec3, DVec3)> {
+        let (spacing, min) = (self.torus.spacing(), DVec3::from_array(self.torus.domain().min));
+        let (foot, normal) = self.interior.nearest_facing((min + spacing * place).to_array(), within * spacing)?;
+        Some(((DVec3::from_array(foot) - min) / spacing, normal.into()))
+    }
+
     #[inline(never)]
     fn moved_near_surface(&self, from: Place, to: Place, step: &mut [f32; 3], near: &mut Near) -> Place {
         near.clearance = 0.0;
@@ -181,7 +271,7 @@ impl<'a> Inside<'a> {
         let place = held.map_or(to, |held| self.torus.place(held));
         if self.holds(place) {
             if held.is_some() {
-                near.turn_along(step);
+                near.turn_along(step, false);
             } else if near.patience > 0 {
                 near.patience -= 1;
             } else {
@@ -197,7 +287,7 @@ impl<'a> Inside<'a> {
         self.search(along, false, near);
         let place = self.torus.place(near.inside_of_foot());
         if self.holds(place) {
-            near.turn_along(step);
+            near.turn_along(step, false);
             return place;
         }
         let mut part = *step;
@@ -259,10 +349,11 @@ impl Near {
         std::array::from_fn(|axis| f64::from(self.foot[axis] + self.standoff * self.inwards[axis]))
     }
 
-    /// Takes from a step the part that leads outwards.
-    fn turn_along(&self, step: &mut [f32; 3]) {
+    /// Takes from a step the part that leads outwards, or also one inwards.
+    fn turn_along(&self, step: &mut [f32; 3], both: bool) {
         let [x, y, z] = self.inwards;
-        let outwards = (step[0] * x + step[1] * y + step[2] * z).min(0.0);
-        *step = std::array::from_fn(|axis| step[axis] - outwards * self.inwards[axis]);
+        let inwards = step[0] * x + step[1] * y + step[2] * z;
+        let away = if both { inwards } else { inwards.min(0.0) };
+        *step = std::array::from_fn(|axis| step[axis] - away * self.inwards[axis]);
     }
 }

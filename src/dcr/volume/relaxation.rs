@@ -3,7 +3,7 @@
 use crate::dcr::clustering::is_clustered;
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, carried};
 use crate::dcr::relaxation::Relaxation;
-use crate::dcr::volume::inside::{Inside, Near};
+use crate::dcr::volume::inside::{Freedom, Inside, Near};
 use crate::dcr::volume::lists::{Lists, lists};
 use crate::dcr::volume::torus::{Place, VolumeTorus, packed, place};
 use crate::error::Result;
@@ -122,8 +122,8 @@ impl<'a> VolumeRelaxation<'a> {
         let images = self.torus.images().count();
         self.places.resize(places.len() * (1 + images), [0.0; 4]);
         if let Some(inside) = &self.inside {
-            self.near = self.order.iter().map(|&i| Near::unknown(i, inside.is_fixed(i))).collect();
-            let fixed = self.order.iter().filter(|&&i| inside.is_fixed(i));
+            self.near = self.order.iter().map(|&i| Near::unknown(i, inside.freedom(i))).collect();
+            let fixed = self.order.iter().filter(|&&i| inside.freedom(i) == Freedom::Fixed);
             self.places.extend(fixed.map(|&i| packed(places[i as usize])));
         }
         self.next = self.places.clone();
@@ -169,18 +169,23 @@ impl<'a> VolumeRelaxation<'a> {
         })
     }
 
-    /// Moves all but the first of coincident points, on which forces would have no direction. Those that are fixed come first.
+    /// Moves all but the first of coincident points, on which forces would have no direction. Those that are fixed come first, then
+    /// those that slide.
     fn part(&self, places: &mut [Place]) {
-        let is_fixed = |i: u32| self.inside.is_some_and(|inside| inside.is_fixed(i));
+        let freedom = |i: u32| self.inside.map_or(Freedom::Free, |inside| inside.freedom(i));
         let mut order: Vec<u32> = (0..places.len() as u32).collect();
-        order.sort_unstable_by_key(|&i| (places[i as usize], !is_fixed(i), i));
+        order.sort_unstable_by_key(|&i| (places[i as usize], freedom(i), i));
         let repeated = order.windows(2).filter(|pair| places[pair[0] as usize] == places[pair[1] as usize]);
-        for i in repeated.map(|pair| pair[1]).filter(|&i| !is_fixed(i)).collect::<Vec<_>>() {
+        for i in repeated.map(|pair| pair[1]).filter(|&i| freedom(i) != Freedom::Fixed).collect::<Vec<_>>() {
             let mut rng = Rng::at(self.seed, Draw::Part, &[i.into()]);
             let from = places[i as usize];
-            let parted = (0..PARTINGS)
-                .map(|_| self.torus.moved(from, direction(&mut rng), self.torus.per_spacing()).0)
-                .find(|&to| self.inside.is_none_or(|inside| inside.holds(to)));
+            let parted = (0..PARTINGS).find_map(|_| {
+                let step = direction(&mut rng);
+                match &self.inside {
+                    None => Some(self.torus.moved(from, step, self.torus.per_spacing()).0),
+                    Some(inside) => inside.parted(i, from, step),
+                }
+            });
             places[i as usize] = parted.unwrap_or(from);
         }
     }
@@ -364,7 +369,7 @@ impl Work for Moves<'_> {
         for (((&at, list), from), (next, velocity)) in points.zip(next.iter_mut().zip(velocities)) {
             let near = inside.as_mut().map(|(inside, near)| (*inside, &mut near[number]));
             number += 1;
-            if near.as_ref().is_some_and(|(_, near)| near.is_fixed) {
+            if near.as_ref().is_some_and(|(_, near)| near.freedom == Freedom::Fixed) {
                 *next = at;
                 continue;
             }

@@ -25,12 +25,15 @@ pub struct InsideOptions<'a> {
     pub tolerance: f64,
     /// True for each point that stays where it is, as samples of the surface may; empty, the default, if none does.
     pub fixed: &'a [bool],
+    /// True for each point that stands on the surface and moves along it, as the samples of the surface may; empty, the default, if
+    /// none does.
+    pub sliding: &'a [bool],
 }
 
 impl Default for InsideOptions<'_> {
-    /// At most 100 steps, tolerance 0.001, no point fixed.
+    /// At most 100 steps, tolerance 0.001, no point fixed or sliding.
     fn default() -> Self {
-        Self { max_iterations: 100, seed: 0, tolerance: 0.001, fixed: &[] }
+        Self { max_iterations: 100, seed: 0, tolerance: 0.001, fixed: &[], sliding: &[] }
     }
 }
 
@@ -46,7 +49,13 @@ impl InsideOptions<'_> {
     }
 }
 
-setters!(InsideOptions<'a> { max_iterations: u32, seed: u64, tolerance: f64, fixed: &'a [bool] });
+setters!(InsideOptions<'a> {
+    max_iterations: u32,
+    seed: u64,
+    tolerance: f64,
+    fixed: &'a [bool],
+    sliding: &'a [bool],
+});
 
 /// The peak memory for a point and all of its data, and for what is made for the inside of a mesh, for each triangle.
 const BYTES_PER_POINT: f64 = 350.0;
@@ -54,6 +63,10 @@ const BYTES_PER_TRIANGLE: f64 = 200.0;
 
 /// Relaxes points inside a closed mesh ([`Mesh::is_closed`]) as [`relax`](fn@super::relax) does those of a bounded cuboid: returns as
 /// many, in the same order, of which those that are `fixed` are where they were.
+///
+/// Those that are `sliding` lie on the surface, before and after. Before: no farther from it than 0.001 spacings; after: than two
+/// float spacings of the box around the mesh, and 10^-7 of its size. They pass edges, and are pushed by all others, but do not
+/// change to another sheet.
 ///
 /// All others are inside, before and after, by [`Interior::contains`] of the returned floats: a step that would leave the inside ends
 /// at the surface and goes on along it, or is shortened. Those that are fixed lie anywhere in the box around the mesh; the others are
@@ -71,8 +84,8 @@ const BYTES_PER_TRIANGLE: f64 = 200.0;
 /// surface; O(n + t) memory. The inside is made once for a mesh, in O(t log t): [`Interior::of`].
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for options out of their range, for a `mesh` that is not closed, for a `fixed` of another length than
-/// the points, and for `positions` that are not finite or outside (with the index); [`Error::TooLarge`] for more than 2^32 - 1
+/// [`Error::InvalidArgument`] for options out of their range, for a `mesh` that is not closed, for a `fixed` or `sliding` of another
+/// length than the points, for a point that is both, and for `positions` that are not finite, outside, or sliding off the surface (with the index); [`Error::TooLarge`] for more than 2^32 - 1
 /// points or the available memory.
 pub fn relax_inside(
     context: &Context,
@@ -83,9 +96,14 @@ pub fn relax_inside(
 ) -> Result<(Vec<[f32; 3]>, Report)> {
     options.check()?;
     check_closed(mesh)?;
-    let &InsideOptions { max_iterations, seed, fixed, .. } = options;
-    if !fixed.is_empty() && fixed.len() != points.len() {
-        return Err(Error::invalid("fixed", format!("has {} entries for {} points", fixed.len(), points.len())));
+    let &InsideOptions { max_iterations, seed, fixed, sliding, .. } = options;
+    for (name, entries) in [("fixed", fixed), ("sliding", sliding)] {
+        if !entries.is_empty() && entries.len() != points.len() {
+            return Err(Error::invalid(name, format!("has {} entries for {} points", entries.len(), points.len())));
+        }
+    }
+    if let Some(point) = fixed.iter().zip(sliding).position(|(&fixed, &sliding)| fixed && sliding) {
+        return Err(Error::invalid("sliding", format!("point {point} is fixed")));
     }
     check::indexable("positions", "points", points.len())?;
     check::finite("positions", "point", points)?;
@@ -93,7 +111,7 @@ pub fn relax_inside(
     let bytes = BYTES_PER_POINT * points.len() as f64 + BYTES_PER_TRIANGLE * triangles as f64;
     memory::require(bytes, "positions", &format!("{} points inside {triangles} triangles", points.len()))?;
     let interior = Interior::of(mesh);
-    let inside = Inside::new(mesh, &interior, points, fixed);
+    let inside = Inside::new(mesh, &interior, points, [fixed, sliding]);
     inside.check(context)?;
     let mut set = VolumeRelaxation::new(*inside.torus(), points, max_iterations, seed).inside(inside);
     let domain = inside.torus().domain();
