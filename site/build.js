@@ -19,7 +19,7 @@ const GUIDES = [
 const MEASURED = [
     "docs/peers.md", "docs/kdrt.md", "docs/psp.md", "docs/dcr.md", "docs/classes.md", "docs/order.md", "docs/tiling.md",
     "docs/figures.md", "docs/gallery.md", "docs/pixels.md", "docs/goals.md", "docs/volume.md",
-    "docs/rendering.md", "docs/learning.md",
+    "docs/rendering.md", "docs/masks.md", "docs/learning.md",
 ];
 const HEADERS = [...tracked].filter((file) => /^include\/.*\.(h|hpp)$/.test(file)).sort();
 const TYPES = ["bindings/python/azulejo.pyi", "bindings/js/index.d.ts"];
