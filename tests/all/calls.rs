@@ -32,6 +32,7 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
 use azulejo::thin::{self, thin};
 use azulejo::volume;
+use azulejo::volume::adaptive::Radius as Varying;
 use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Interior, Order, Points, Progress, Region, Result};
 
 use crate::common::meshes;
@@ -606,6 +607,9 @@ const RELAXATION: &[Call] = &[
     },
 ];
 
+/// Radii that grow from the lower to the upper face.
+const WIDENING: Varying = Varying::Grid { values: &[0.03, 0.05], size: [1, 1, 2] };
+
 const VOLUME: &[Call] = &[
     Call {
         name: "volume::sample",
@@ -618,6 +622,43 @@ const VOLUME: &[Call] = &[
             ("leaf_size: ", |c, p| said(volume::sample(c, &volume::Options::new(0.1).leaf_size(2.0), p))),
             ("domain_max: ", |c, p| {
                 said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
+            }),
+        ],
+    },
+    Call {
+        name: "volume::adaptive::sample",
+        reports: 15,
+        run: |c, p| samples(volume::adaptive::sample(c, &volume::adaptive::Options::new(WIDENING).domain(CUBE), p)),
+        refused: &[
+            ("radius_function: ", |c, p| {
+                let radius = Varying::Function { at: &|_| 1e-6, smallest: 1e-6, largest: 0.1, slope: 0.0 };
+                said(volume::adaptive::sample(c, &volume::adaptive::Options::new(radius).domain(CUBE), p))
+            }),
+            ("smallest: ", |c, p| {
+                let radius = Varying::Function { at: &|_| 0.1, smallest: 0.0, largest: 0.1, slope: 0.0 };
+                said(volume::adaptive::sample(c, &volume::adaptive::Options::new(radius), p))
+            }),
+            ("grid_size: ", |c, p| {
+                let radius = Varying::Grid { values: &[0.1], size: [2, 1, 1] };
+                said(volume::adaptive::sample(c, &volume::adaptive::Options::new(radius), p))
+            }),
+        ],
+    },
+    Call {
+        name: "volume::adaptive::sample_inside",
+        reports: 15,
+        run: |c, p| {
+            let options = volume::adaptive::InsideOptions::new(WIDENING);
+            samples(volume::adaptive::sample_inside(c, &SOLID, &options, p))
+        },
+        refused: &[
+            ("mesh: ", |c, p| {
+                let options = volume::adaptive::InsideOptions::new(WIDENING);
+                said(volume::adaptive::sample_inside(c, &MESH, &options, p))
+            }),
+            ("tolerance: ", |c, p| {
+                let options = volume::adaptive::InsideOptions::new(WIDENING).tolerance(0.0);
+                said(volume::adaptive::sample_inside(c, &SOLID, &options, p))
             }),
         ],
     },
