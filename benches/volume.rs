@@ -94,7 +94,8 @@ fn ramps(criterion: &mut Criterion) {
         let least = f64::cbrt(MAXIMAL_DENSITY_IN_SPACE * mean / 1e6);
         let slope = (ratio - 1.0) * least;
         let at = move |[x, _, _]: [f64; 3]| least + slope * x;
-        let options = adaptive::Options::new(Radius::Function { at: &at, smallest: least, largest: ratio * least, slope });
+        let options =
+            adaptive::Options::new(Radius::Function { at: &at, smallest: least, largest: ratio * least, slope });
         let samples = adaptive::sample(&context, &options, None).unwrap().0.len();
         group.throughput(Throughput::Elements(samples as u64));
         group.bench_function(format!("1e6 periodic, ramp 1:{ratio}"), |bencher| {

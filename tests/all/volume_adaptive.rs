@@ -35,9 +35,8 @@ fn made(domain: Domain<3>, stated: Stated, seed: u64, threads: usize) -> Points<
 /// All pairs.
 fn conflict(domain: &Domain<3>, samples: &Points<3>) -> Option<(usize, usize)> {
     let points: Vec<_> = samples.positions.iter().map(|position| position.map(f64::from)).collect();
-    let is_near = |&(i, j): &(usize, usize)| {
-        distance(domain, points[i], points[j]) < 0.5 * (samples.radii[i] + samples.radii[j])
-    };
+    let is_near =
+        |&(i, j): &(usize, usize)| distance(domain, points[i], points[j]) < 0.5 * (samples.radii[i] + samples.radii[j]);
     (0..points.len()).flat_map(|j| (0..j).map(move |i| (i, j))).find(is_near)
 }
 
@@ -83,7 +82,8 @@ fn gap_in(
         return Some(centre);
     }
     let near = |ball: [f64; 3]| length([0, 1, 2].map(|k: usize| ball[k] - ball[k].clamp(min[k], max[k])));
-    let near: Vec<_> = balls.iter().copied().filter(|&(ball, of)| near(ball) <= 0.5 * (of + most) + tolerance).collect();
+    let near: Vec<_> =
+        balls.iter().copied().filter(|&(ball, of)| near(ball) <= 0.5 * (of + most) + tolerance).collect();
     let axis = (0..3).max_by(|&a, &b| (max[a] - min[a]).total_cmp(&(max[b] - min[b]))).unwrap();
     if max[axis] - min[axis] < finest {
         return None;
@@ -184,12 +184,12 @@ fn thin_and_small_domains_are_covered() {
 
 #[test]
 fn the_density_follows_the_radius() {
-    for (ratio, tolerance) in [(4.0f64, 0.03), (16.0, 0.04)] {
+    for (ratio, tolerance) in [(4.0f64, 0.05), (16.0, 0.1)] {
         let mean = 0.5 * (1.0 - ratio.powi(-2)) / (ratio - 1.0);
-        let least = (MAXIMAL_DENSITY_IN_SPACE * mean / 2e4).cbrt();
+        let least = (MAXIMAL_DENSITY_IN_SPACE * mean / 1e5).cbrt();
         let at = |[x, _, _]: [f64; 3]| least * (1.0 + (ratio - 1.0) * x);
         let stated = Stated { at: &at, bounds: [least, ratio * least], slope: (ratio - 1.0) * least };
-        let found = made(Domain::unit(Boundary::Periodic), stated, 0, 2).len() as f64 / 2e4;
+        let found = made(Domain::unit(Boundary::Periodic), stated, 0, 2).len() as f64 / 1e5;
         assert!((found - 1.0).abs() < tolerance, "{ratio}: {found}");
     }
 }
@@ -230,7 +230,8 @@ fn cube() -> Arc<Mesh> {
 /// An octahedron and a cube, whose depth is known.
 #[test]
 fn the_inside_of_a_mesh_is_covered() {
-    let corners = [[1.0f32, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let corners =
+        [[1.0f32, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
     let faces = (0..8u32).map(|k| {
         let [x, y, z] = [k & 1, 2 + (k >> 1 & 1), 4 + (k >> 2)];
         if (k.count_ones()) % 2 == 0 { [x, y, z] } else { [x, z, y] }
@@ -258,9 +259,11 @@ fn the_inside_of_a_mesh_is_covered() {
                 continue;
             }
             probes += 1;
-            let is_covered = points.positions.iter().zip(&points.radii).any(|(position, of)| {
-                distance(&all, position.map(f64::from), probe) <= 0.5 * (of + radius) + 1e-6
-            });
+            let is_covered = points
+                .positions
+                .iter()
+                .zip(&points.radii)
+                .any(|(position, of)| distance(&all, position.map(f64::from), probe) <= 0.5 * (of + radius) + 1e-6);
             assert!(is_covered, "{probe:?}");
         }
         assert!(probes > 10_000, "{probes}");
@@ -314,7 +317,9 @@ fn radii_out_of_range_are_refused() {
         assert!(error.to_string().starts_with("tolerance"), "{error}");
     }
     let open = Arc::new(Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).unwrap());
-    assert!(sample_inside(&context, &open, &InsideOptions::new(radius), None).unwrap_err().to_string().starts_with("mesh"));
+    assert!(
+        sample_inside(&context, &open, &InsideOptions::new(radius), None).unwrap_err().to_string().starts_with("mesh")
+    );
 }
 
 /// A function that answers at random within its bounds: an error, or a set without conflicts, and an end.

@@ -60,9 +60,11 @@ pub(crate) fn volume_adaptive_sample(
         return Points::cuboid(py, samples, &frame)?.with_radii(py, radii).with_report(py, VolumeReport::from(report));
     };
     let mesh = taken::mesh(mesh)?;
-    for (name, is_given) in
-        [("domain_min", domain_min.is_some()), ("domain_max", domain_max.is_some()), ("boundary", boundary != "periodic")]
-    {
+    for (name, is_given) in [
+        ("domain_min", domain_min.is_some()),
+        ("domain_max", domain_max.is_some()),
+        ("boundary", boundary != "periodic"),
+    ] {
         if is_given {
             return Err(invalid(name, "has no effect with a mesh"));
         }

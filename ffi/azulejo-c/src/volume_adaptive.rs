@@ -23,30 +23,27 @@ use crate::volume::azulejo_volume_report;
 pub struct azulejo_volume_adaptive_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// An AZULEJO_BOUNDARY_ constant; default periodic. Inside a mesh it has no effect.
+    /// An AZULEJO_BOUNDARY_ constant; default periodic. Not inside a mesh.
     pub boundary: u32,
-    /// The lower corner of the domain, x y z; default 0 0 0. Must be that inside a mesh.
+    /// The lower corner, x y z; default 0 0 0. Not inside a mesh.
     pub domain_min: [f64; 3],
-    /// The upper corner; default 1 1 1. Must be that inside a mesh.
+    /// The upper corner; default 1 1 1. Not inside a mesh.
     pub domain_max: [f64; 3],
-    /// Radii above 0 on a grid over the domain, or the box around the mesh, whose first and last
-    /// ones lie on its faces, x fastest, z slowest; linear between them along each axis. NULL, the
-    /// default, if `radius_function` is set.
+    /// Radii above 0, x fastest, then y. Default NULL.
     pub grid_values: *const f32,
-    /// Their number along x, y and z. Must be 0 0 0, the default, if `radius_function` is set.
+    /// Their number along x, y, z: at least 1 1 1. Default 0 0 0: no grid.
     pub grid_size: [usize; 3],
-    /// About 60 calls for each sample. NULL, the default, if `grid_values` is set.
+    /// Instead of a grid. Default NULL.
     pub radius_function: azulejo_radius_fn,
     /// Passed to `radius_function`.
     pub radius_function_user: *mut c_void,
-    /// The smallest value of `radius_function`, above 0. Must be 0, the default, with grid_values.
+    /// The smallest value of `radius_function`, above 0. Default 0: no function.
     pub smallest: f64,
-    /// Its largest value. Must be 0, the default, with grid_values.
+    /// Its largest value. Default 0.
     pub largest: f64,
-    /// As in azulejo_psp_adaptive_options; default 0. It need not hold across the seam of a torus.
-    /// From about 1 on the work grows with its cube.
+    /// As in azulejo_psp_adaptive_options; default 0.
     pub slope: f64,
-    /// As in azulejo_volume_inside_options; default 0.0625. Must be that without a mesh.
+    /// Of the inside of a mesh, in radii: 1/256 to 1/2; default 0.0625.
     pub tolerance: f64,
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
@@ -83,18 +80,16 @@ pub unsafe extern "C" fn azulejo_volume_adaptive_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// Makes a maximal set of samples of a cuboid or, unless `mesh` is NULL, of the inside of a closed
-/// mesh, each with a radius of its own, by the rule of azulejo_psp_adaptive_sample: two samples are
-/// no closer than the mean of their radii, and no place is farther from every sample than the mean
-/// of the two radii, up to the tolerance of azulejo_volume_sample and the change of the radius over
-/// it; inside a mesh, unless it is nearer to the surface than sqrt(3) `tolerance` times its radius.
+/// Makes a maximal set of samples, each with a radius of its own (azulejo_points_radii), of a
+/// cuboid or, unless `mesh` is NULL, inside a closed mesh. Rule and errors are those of
+/// azulejo_psp_adaptive_sample, the tolerance that of azulejo_volume_sample, inside a mesh with
+/// the radius of the place, and the change of the radius over it. A grid lies over the cuboid or
+/// the box around the mesh, its first and last radii on the faces, linear along each axis. A
+/// function is called some 60 times a sample; its slope need not hold across the seam of a torus.
 ///
-/// Where the radius changes little from sample to sample there are about 0.7336 / radius^3 samples
-/// per unit of volume. The radii of samples are azulejo_points_radii.
+/// report: the least radius of a sample, and the largest that there can be.
 ///
-/// report: the least radius of a sample, and the largest that `radius_function` may give.
-///
-/// O(samples) time and memory for radii that change slowly. Errors: as azulejo_psp_adaptive_sample.
+/// O(samples) time and memory for slopes below about 1.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_adaptive_sample(
     context: *const azulejo_context,
@@ -117,7 +112,8 @@ pub unsafe extern "C" fn azulejo_volume_adaptive_sample(
         // SAFETY: handed on from the caller.
         let function = options.radius_function.map(|function| unsafe { OfPosition::new(function, user) });
         let at = function.as_ref().map(|function| |position| function.call(position));
-        let azulejo_volume_adaptive_options { smallest, largest, slope, seed, tolerance, grid_size: size, .. } = options;
+        let azulejo_volume_adaptive_options { smallest, largest, slope, seed, tolerance, grid_size: size, .. } =
+            options;
         // SAFETY: handed on from the caller.
         let values = unsafe { options.grid_values() }?;
         let radius = match &at {
@@ -127,7 +123,12 @@ pub unsafe extern "C" fn azulejo_volume_adaptive_sample(
         let watch = Watch::new(options.progress, options.progress_user);
         let (samples, made) = match mesh {
             None => {
-                check_unused("tolerance", tolerance, azulejo_volume_adaptive_options::DEFAULT.tolerance, "without a mesh")?;
+                check_unused(
+                    "tolerance",
+                    tolerance,
+                    azulejo_volume_adaptive_options::DEFAULT.tolerance,
+                    "without a mesh",
+                )?;
                 let domain = domain(options.domain_min, options.domain_max, options.boundary)?;
                 let request = Options::new(radius).domain(domain).seed(seed);
                 context.run(watch, |context, progress| adaptive::sample(context, &request, progress))?

@@ -109,7 +109,7 @@ fn tree(
             blocks.push(block(lattice, field, rect, key, bounds));
             expected += samples;
             if expected > limit {
-                return Err(field.too_many(limit));
+                return Err(field.too_many());
             }
         }
         next += 1;
@@ -120,7 +120,7 @@ fn tree(
 /// Refuses largest radii that alone ask for more samples than `limit`.
 pub fn check_largest(lattice: &Lattice<3>, field: &RadiusField, limit: f64) -> Result<()> {
     let volume: f64 = lattice.size.iter().map(|&size| f64::from(size) / field.bounds[1]).product();
-    if MAXIMAL_DENSITY_IN_SPACE * volume > limit { Err(field.too_many(limit)) } else { Ok(()) }
+    if MAXIMAL_DENSITY_IN_SPACE * volume > limit { Err(field.too_many()) } else { Ok(()) }
 }
 
 /// The children of a node; none if it is a block: a node is split across its longest side as long as that is long enough.
@@ -172,13 +172,7 @@ fn square_between(a: &Rect<3>, b: &Rect<3>) -> f64 {
 }
 
 /// The blocks of the tree whose images, moved by a displacement, may have samples that matter to a block.
-fn neighbours(
-    nodes: &[Node],
-    number: usize,
-    block: &Block,
-    image: [i32; 3],
-    field: &RadiusField,
-) -> Vec<Neighbour> {
+fn neighbours(nodes: &[Node], number: usize, block: &Block, image: [i32; 3], field: &RadiusField) -> Vec<Neighbour> {
     let moved = block.region.translated(image.map(|x| -x));
     let (mut found, mut left) = (Vec::new(), vec![0u32]);
     while let Some(node) = left.pop() {
@@ -207,7 +201,8 @@ fn octaves(blocks: &[Block]) -> Vec<Vec<Vec<u32>>> {
     let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
     order.sort_unstable_by_key(|&block| (octave(block), rank(block)));
     // Neighbours are mutual: the farther reach of the two counts.
-    let mut near: Vec<Vec<u32>> = blocks.iter().map(|block| block.neighbours.iter().map(|near| near.0).collect()).collect();
+    let mut near: Vec<Vec<u32>> =
+        blocks.iter().map(|block| block.neighbours.iter().map(|near| near.0).collect()).collect();
     for (number, block) in (0..).zip(blocks) {
         block.neighbours.iter().for_each(|&(other, _)| near[other as usize].push(number));
     }
@@ -217,8 +212,9 @@ fn octaves(blocks: &[Block]) -> Vec<Vec<Vec<u32>>> {
         for &block in members {
             let others = &near[block as usize];
             // Blocks of other octaves have colours of another number.
-            let is_free =
-                |&colour: &usize| others.iter().all(|&other| other == block || colours[other as usize] != Some((octaves.len(), colour)));
+            let is_free = |&colour: &usize| {
+                others.iter().all(|&other| other == block || colours[other as usize] != Some((octaves.len(), colour)))
+            };
             let colour = (0..waves.len()).find(is_free).unwrap_or(waves.len());
             colours[block as usize] = Some((octaves.len(), colour));
             if colour == waves.len() {

@@ -100,7 +100,8 @@ impl<'a> RadiusField<'a> {
         check_resolution(too_small, smallest, unit, "the domain's largest coordinate")?;
         let steepest = smallest / (4.0 * TOLERANCE * unit);
         if slope > steepest {
-            let reason = format!("{slope:?} is above {steepest:e}: the radius would change between neighbouring floats");
+            let reason =
+                format!("{slope:?} is above {steepest:e}: the radius would change between neighbouring floats");
             return Err(Error::invalid(too_steep, reason));
         }
         let square: f64 = lattice.size.iter().map(|&size| f64::from(size) * f64::from(size)).sum();
@@ -198,9 +199,9 @@ impl<'a> RadiusField<'a> {
         MAXIMAL_DENSITY_IN_SPACE * along(0) * along(1) * along(2)
     }
 
-    /// The refusal of more samples than a limit.
-    pub fn too_many(&self, limit: f64) -> Error {
-        let reason = format!("asks for more samples than memory holds, or the limit of {:.2e}", f64::from(u32::MAX).min(limit));
+    /// The refusal of too many samples.
+    pub fn too_many(&self) -> Error {
+        let reason = format!("asks for more samples than memory holds, or the limit of {:.2e}", f64::from(u32::MAX));
         Error::too_large(self.source.argument(), reason)
     }
 

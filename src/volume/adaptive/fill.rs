@@ -31,6 +31,8 @@ pub struct Fill<'a, S> {
     /// The lattice points that darts fall on, and bounds of the radius there.
     pub region: Rect<3>,
     pub around: [f64; 2],
+    /// The unit of the grid.
+    pub unit: f64,
     /// The samples that stand in the region and near it, with their images.
     pub standing: &'a [Ball],
     /// The displacements of the images of a new sample that matter to the block.
@@ -41,8 +43,8 @@ pub struct Fill<'a, S> {
 impl<'a, S> Fill<'a, S> {
     /// The same of another shape.
     pub fn of_shape<T>(self, shape: T) -> Fill<'a, T> {
-        let Self { grid, field, pass, block, most, region, around, standing, images, rng, .. } = self;
-        Fill { shape, grid, field, pass, block, most, region, around, standing, images, rng }
+        let Self { grid, field, pass, block, most, region, around, unit, standing, images, rng, .. } = self;
+        Fill { shape, grid, field, pass, block, most, region, around, unit, standing, images, rng }
     }
 }
 
@@ -82,7 +84,7 @@ impl<S: Shape> Work for Fill<'_, S> {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self, lanes: L) -> Vec<Ball> {
-        self.grid.reset(&self.region, self.around, self.field);
+        self.grid.reset(&self.region, self.around, self.unit, self.field);
         self.shape.begin(&self.grid.cells);
         let (levels, mut accepted) = (self.grid.cells.levels(), Vec::new());
         let voxels = self.shape.cells(lanes, &self.grid.cells, self.grid.cells.open_cells());
@@ -121,7 +123,7 @@ impl<S: Shape> Fill<'_, S> {
         let expected = |voxel: &Voxel| self.field.samples(self.grid.bounds(voxel.cell)[0], sides, lengths);
         let of_parts = parts.voxels.inside.iter().chain(&parts.voxels.cut).map(expected).sum::<f64>() / per_cell as f64;
         let expected = open.voxels.inside.iter().map(expected).sum::<f64>() + of_parts;
-        let mut left = (FIRST_DARTS * expected).ceil() as u64;
+        let (mut left, least) = ((FIRST_DARTS * expected).ceil() as u64, (0.5 * self.around[0] / self.unit) as f32);
         let whole = open.voxels.inside.len() as u64 * per_cell;
         let all = whole + parts.voxels.len() as u64;
         if all == 0 {
@@ -134,9 +136,8 @@ impl<S: Shape> Fill<'_, S> {
             } else {
                 (&levels[1], parts.get((number - whole) as usize))
             };
-            // The least radius of the region is the unit.
-            let density = 1.0 / (8.0 * lower * lower * lower);
-            if lower > 0.5 && self.rng.unit() as f32 >= density.max(LEAST_SHARE) {
+            let density = least / lower * (least / lower) * (least / lower);
+            if lower > least && self.rng.unit() as f32 >= density.max(LEAST_SHARE) {
                 continue;
             }
             left -= 1;
@@ -178,11 +179,8 @@ impl<S: Shape> Fill<'_, S> {
                 let lower = self.grid.narrowed(self.field, level, voxel, lower);
                 let bits = self.grid.open_parts(lanes, level, voxel, lower);
                 if bits != 0 {
-                    let found = if is_cut {
-                        self.shape.parts(lanes, &self.grid.cells, level, voxel, bits)
-                    } else {
-                        [bits, 0]
-                    };
+                    let found =
+                        if is_cut { self.shape.parts(lanes, &self.grid.cells, level, voxel, bits) } else { [bits, 0] };
                     parts.push(level, voxel, found, lower);
                 }
             }
@@ -240,13 +238,10 @@ impl<S: Shape> Fill<'_, S> {
         let bounds = if points.min == last {
             [self.field.at_point(self.grid.cells.absolute(last), bounds); 2]
         } else {
-            let (mut place, mut square) = ([0.0; 3], 0.0);
-            for axis in 0..3 {
-                let half = 0.5 * f64::from(points.length(axis) - 1);
-                place[axis] = f64::from(self.region.min[axis]) + f64::from(points.min[axis]) + half;
-                square += half * half;
-            }
-            self.field.around(place, square.sqrt(), bounds)
+            let half = |axis: usize| 0.5 * f64::from(points.length(axis) - 1);
+            let along = |axis: usize| f64::from(self.region.min[axis]) + f64::from(points.min[axis]) + half(axis);
+            let square: f64 = (0..3).map(|axis| half(axis) * half(axis)).sum();
+            self.field.around(std::array::from_fn(along), square.sqrt(), bounds)
         };
         if balls.iter().any(|ball| ball.covers_box(points, bounds[0])) {
             return None;

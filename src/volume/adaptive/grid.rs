@@ -5,10 +5,11 @@
 //! reaches its farthest corner with a lower bound of its radii.
 //!
 //! # Exactness
-//! All is relative to the cell's centre, in the least radius of the region, as in the grid of one radius (`volume/grid.rs`). So
-//! the distance of a conflict is at least 1/2, and an error of coordinates of 1.2·10^-7 times the distance and 2.5·10^-7 makes
-//! one of squared distances of 3·10^-6 of the square at most. With a slack of 2^-17 = 7.6·10^-6 tests in `f32` give only answers
-//! that are certain, whatever the radii; what lies between is decided in `f64` by the squared distance, an integer.
+//! All is relative to the cell's centre, in a unit of at most [`LONGEST_UNIT`] times the least radius of the region, as in the grid
+//! of one radius (`volume/grid.rs`). So the distance of a conflict is at least 1/3, and an error of coordinates of 1.2·10^-7 times
+//! the distance and 2.5·10^-7 makes one of squared distances of 4·10^-6 of the square at most. With a slack of 2^-17 = 7.6·10^-6
+//! tests in `f32` give only answers that are certain, whatever the radii; what lies between is decided in `f64` by the squared
+//! distance, an integer.
 
 use crate::plane::{Rect, Separation};
 use crate::simd::{LANES, Lanes};
@@ -24,6 +25,9 @@ const POSSIBLE: f32 = 1.0 + SLACK;
 
 /// More than the rounding of lengths in `f32`, as a share.
 const ROUNDING: f64 = 1e-5;
+
+/// The longest unit of a region, in its least radii.
+pub const LONGEST_UNIT: f64 = 1.5;
 
 /// The most cells along an axis: regions have sides below 20 of their block's least radius, and cells of .9 · .75 of it.
 const MOST_CELLS: usize = 32;
@@ -56,7 +60,8 @@ impl Ball {
     pub fn covers_box(&self, points: &Rect<3>, least: f64) -> bool {
         let farthest = std::array::from_fn(|axis| {
             let (first, last) = (points.min[axis], points.max[axis] - 1);
-            let is_beyond_middle = i64::from(self.centre[axis]) - i64::from(first) > i64::from(last) - i64::from(self.centre[axis]);
+            let is_beyond_middle =
+                i64::from(self.centre[axis]) - i64::from(first) > i64::from(last) - i64::from(self.centre[axis]);
             if is_beyond_middle { first } else { last }
         });
         self.covers(farthest, least)
@@ -74,7 +79,7 @@ fn limit(a: f64, b: f64) -> f64 {
 /// The cells of a region, and the balls that may cover places in them.
 #[derive(Default)]
 pub struct GradedGrid {
-    /// The cells, with the centres of balls. Its radius, the unit of all lengths in `f32`, is the least of the region.
+    /// The cells, with the centres of balls. Its radius is the unit of all lengths in `f32`.
     pub cells: Grid,
     /// Half the radius of the balls on each page.
     halves: Vec<[f32; LANES]>,
@@ -95,8 +100,7 @@ pub struct GradedGrid {
 
 impl GradedGrid {
     /// Forgets all balls, and covers another region, in which the radius has these bounds.
-    pub fn reset(&mut self, region: &Rect<3>, bounds: [f64; 2], field: &RadiusField) {
-        let unit = bounds[0];
+    pub fn reset(&mut self, region: &Rect<3>, bounds: [f64; 2], unit: f64, field: &RadiusField) {
         self.cells.reset(region, unit, Separation::default(), &[]);
         (self.origin, self.counts, self.unit) = (region.min, self.cells.counts(), unit);
         debug_assert!(self.counts.iter().all(|&count| count <= MOST_CELLS));
@@ -114,7 +118,8 @@ impl GradedGrid {
         self.lower.extend(self.bounds.iter().map(|[least, _]| (0.5 * least / unit) as f32));
         self.reach.clear();
         self.reach.extend(self.bounds.iter().map(|&[_, most]| reach(most) as f32));
-        self.farthest = unit * (1.0 + ROUNDING) * self.reach.iter().fold(0.0, |most: f32, &reach| most.max(reach)) as f64;
+        self.farthest =
+            unit * (1.0 + ROUNDING) * self.reach.iter().fold(0.0, |most: f32, &reach| most.max(reach)) as f64;
         self.halves.clear();
         self.halves.resize(self.cells.pages(), [0.0; LANES]);
         self.balls.clear();
@@ -141,7 +146,8 @@ impl GradedGrid {
         for axis in 0..3 {
             local[axis] = ball.centre[axis] - self.origin[axis];
             let (along, last) = (f64::from(local[axis]), self.counts[axis] as f64 - 1.0);
-            let (low, high) = (((along - reach) / sides[axis]).floor().max(0.0), ((along + reach) / sides[axis]).floor().min(last));
+            let (low, high) =
+                (((along - reach) / sides[axis]).floor().max(0.0), ((along + reach) / sides[axis]).floor().min(last));
             if high < low {
                 return;
             }
@@ -239,7 +245,9 @@ impl GradedGrid {
         let (VoxelBox { centre, .. }, place) = (VoxelBox::new(level, voxel), self.cells.place(voxel.cell as usize));
         let sides = self.cells.sides();
         let along = |axis: usize| {
-            f64::from(self.origin[axis]) + (f64::from(place[axis]) + 0.5) * sides[axis] + f64::from(centre[axis]) * self.unit
+            f64::from(self.origin[axis])
+                + (f64::from(place[axis]) + 0.5) * sides[axis]
+                + f64::from(centre[axis]) * self.unit
         };
         let [x, y, z] = level.halves.map(f64::from);
         let half = (1.0 + ROUNDING) * self.unit * (x * x + y * y + z * z).sqrt();

@@ -10,7 +10,7 @@ use crate::simd::{self, Level};
 use crate::volume::adaptive::blocks::Blocks;
 use crate::volume::adaptive::field::RadiusField;
 use crate::volume::adaptive::fill::Fill;
-use crate::volume::adaptive::grid::{Ball, GradedGrid};
+use crate::volume::adaptive::grid::{Ball, GradedGrid, LONGEST_UNIT};
 use crate::volume::fill::Pass;
 use crate::volume::inside::Solid;
 use crate::volume::shape::Whole;
@@ -64,6 +64,11 @@ impl Set<'_> {
             Pass::First => (block.region, block.around),
             Pass::Last => (block.rect, block.bounds),
         };
+        // Voxels at a surface are as small as the least radius requires.
+        let unit = match solid {
+            Some(_) => around[0],
+            None => (0.5 * (around[0] + around[1])).min(LONGEST_UNIT * around[0]),
+        };
         let mut grid = self.grids.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
         let fill = Fill {
             shape: Whole,
@@ -74,6 +79,7 @@ impl Set<'_> {
             most: block.bounds[1],
             region,
             around,
+            unit,
             standing: &self.standing(number, &region, around[1] + field.slack(around[1])),
             images: &block.images,
             rng: Rng::at(block.key, Draw::Volume, &[pass as u64]),
@@ -81,8 +87,7 @@ impl Set<'_> {
         let added = match solid {
             None => simd::run(self.level, fill),
             Some(solid) => {
-                // Voxels at the surface are as small as the least radius requires.
-                let lattice = &lattice.with_radius(around[0] * lattice.unit());
+                let lattice = &lattice.with_radius(unit * lattice.unit());
                 simd::run(self.level, fill.of_shape(solid.within(lattice, region)))
             }
         };
@@ -97,7 +102,8 @@ impl Set<'_> {
         let block = &self.blocks.blocks[number as usize];
         let mut standing = self.samples[number as usize].clone();
         for &(other, image) in &block.neighbours {
-            let moved = |ball: &Ball| Ball { centre: std::array::from_fn(|axis| ball.centre[axis] + image[axis]), ..*ball };
+            let moved =
+                |ball: &Ball| Ball { centre: std::array::from_fn(|axis| ball.centre[axis] + image[axis]), ..*ball };
             let images = self.samples[other as usize].iter().map(moved);
             // A dart is rounded to a lattice point of the region.
             standing.extend(images.filter(|ball| ball.touches(region, most)));

@@ -108,8 +108,7 @@ mod tests {
         }
         let mut steepest = 0.0f64;
         for _ in 0..20_000 {
-            let place: [f64; 3] =
-                std::array::from_fn(|axis| domain.min[axis] + domain.extent()[axis] * rng.unit());
+            let place: [f64; 3] = std::array::from_fn(|axis| domain.min[axis] + domain.extent()[axis] * rng.unit());
             let next: [f64; 3] = std::array::from_fn(|axis| place[axis] + 1e-4 * (rng.unit() - 0.5));
             let length = hypot(hypot(next[0] - place[0], next[1] - place[1]), next[2] - place[2]);
             let slope = (grid.at(next) - grid.at(place)).abs() / length;
