@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
+use azulejo::volume::adaptive::{self, Radius};
 use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, MAXIMAL_DENSITY_IN_SPACE};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -82,5 +83,27 @@ fn insides(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, cuboids, insides);
+/// Ramps of the radius along x by these factors, with about 10^6 samples on one thread.
+fn ramps(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("volume adaptive");
+    group.sample_size(10);
+    let context = Context::new(1).unwrap();
+    for ratio in [1.0, 4.0, 16.0] {
+        // The mean of 1 / radius^3 where the least radius is 1.
+        let mean = 0.5 * (1.0 + 1.0 / ratio) / ratio;
+        let least = f64::cbrt(MAXIMAL_DENSITY_IN_SPACE * mean / 1e6);
+        let slope = (ratio - 1.0) * least;
+        let at = move |[x, _, _]: [f64; 3]| least + slope * x;
+        let options =
+            adaptive::Options::new(Radius::Function { at: &at, smallest: least, largest: ratio * least, slope });
+        let samples = adaptive::sample(&context, &options, None).unwrap().0.len();
+        group.throughput(Throughput::Elements(samples as u64));
+        group.bench_function(format!("1e6 periodic, ramp 1:{ratio}"), |bencher| {
+            bencher.iter(|| adaptive::sample(&context, black_box(&options), None).unwrap());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, cuboids, ramps, insides);
 criterion_main!(benches);

@@ -893,6 +893,28 @@ using MaskOptions = Options<azulejo_mask_options, azulejo_mask_options_init>;
 /// See azulejo_thin_options; `radius`, `count` or `order` is to be set.
 using ThinOptions = Options<azulejo_thin_options, azulejo_thin_options_init>;
 
+namespace detail {
+/// A function of the radius that options own; copies of them share it.
+class OwnRadius {
+public:
+    template <typename Options> void set(Options &options, RadiusFunction function) {
+        function_ = function ? std::make_shared<Function>(std::move(function)) : nullptr;
+        options.radius_function = function_ ? &Field<3>::call : nullptr;
+        options.radius_function_user = function_ ? &function_->field : nullptr;
+    }
+
+private:
+    struct Function {
+        explicit Function(RadiusFunction f) : function(std::move(f)) {}
+
+        RadiusFunction function;
+        Field<3> field{function};
+    };
+
+    std::shared_ptr<Function> function_;
+};
+} // namespace detail
+
 /// See azulejo_psp_adaptive_options; the radii of the vertices or a function is to be set.
 class PspAdaptiveOptions
     : public Options<azulejo_psp_adaptive_options, azulejo_psp_adaptive_options_init> {
@@ -918,21 +940,42 @@ public:
 
     /// Sets `radius_function` and its user pointer; an empty function unsets them. Copies share it
     /// as set_progress says.
-    void set_radius(RadiusFunction function) {
-        function_ = function ? std::make_shared<Function>(std::move(function)) : nullptr;
-        radius_function = function_ ? &detail::Field<3>::call : nullptr;
-        radius_function_user = function_ ? &function_->field : nullptr;
-    }
+    void set_radius(RadiusFunction function) { function_.set(*this, std::move(function)); }
 
 private:
-    struct Function {
-        explicit Function(RadiusFunction f) : function(std::move(f)) {}
+    detail::OwnRadius function_;
+};
 
-        RadiusFunction function;
-        detail::Field<3> field{function};
-    };
+/// See azulejo_volume_adaptive_options; the radii on a grid or a function is to be set.
+class VolumeAdaptiveOptions
+    : public Options<azulejo_volume_adaptive_options, azulejo_volume_adaptive_options_init> {
+public:
+    /// Sets `grid_values`, which stay the caller's, and `grid_size`, whose product is their number.
+    Status try_set_grid(const Borrowed<Span<const float>> &values,
+                        const std::array<std::size_t, 3> &size) {
+        if (size[0] == 0 || size[1] == 0 || values.size() % size[0] != 0 ||
+            values.size() / size[0] % size[1] != 0 ||
+            values.size() / size[0] / size[1] != size[2]) {
+            return Status(AZULEJO_ERROR_INVALID_ARGUMENT,
+                          "grid_size: not that of " + std::to_string(values.size()) + " values");
+        }
+        grid_values = values.data();
+        std::copy(size.begin(), size.end(), grid_size);
+        return {};
+    }
 
-    std::shared_ptr<Function> function_;
+#ifndef AZULEJO_NO_EXCEPTIONS
+    void set_grid(const Borrowed<Span<const float>> &values,
+                  const std::array<std::size_t, 3> &size) {
+        check(try_set_grid(values, size));
+    }
+#endif
+
+    /// As PspAdaptiveOptions::set_radius.
+    void set_radius(RadiusFunction function) { function_.set(*this, std::move(function)); }
+
+private:
+    detail::OwnRadius function_;
 };
 
 /// The density of points; see azulejo_density. Either an image of `width` pixels a row, which
@@ -1908,20 +1951,48 @@ inline Status try_psp_sample_classes(const Context &context, const Mesh &mesh,
     });
 }
 
+namespace detail {
+/// Calls with options that may have a function of the radius, and tells what it has thrown.
+template <typename Options, typename Call>
+Status with_radius(const Options &options, Points &out, const Call &call) {
+    if (options.radius_function != &Field<3>::call) {
+        return make(out, [&](auto **points) { return call(options, points); });
+    }
+    Field<3> field(*static_cast<const Field<3> *>(options.radius_function_user));
+    Options c_options = options;
+    c_options.radius_function_user = &field;
+    return make(out, [&](auto **points) { return field.after(call(c_options, points)); });
+}
+} // namespace detail
+
 /// Samples of a mesh, each with a radius of its own; see azulejo_psp_adaptive_sample.
 inline Status try_psp_adaptive_sample(const Context &context, const Mesh &mesh,
                                       const PspAdaptiveOptions &options, Points &out,
                                       PspReport *report = nullptr) {
-    const auto sample = [&](const azulejo_psp_adaptive_options &o, azulejo_points **points) {
+    const azulejo_psp_adaptive_options &c_options = options;
+    return detail::with_radius(c_options, out, [&](const auto &o, auto **points) {
         return azulejo_psp_adaptive_sample(context.get(), mesh.get(), &o, points, report);
-    };
-    if (options.radius_function != &detail::Field<3>::call) {
-        return detail::make(out, [&](auto **points) { return sample(options, points); });
-    }
-    detail::Field<3> field(*static_cast<const detail::Field<3> *>(options.radius_function_user));
-    azulejo_psp_adaptive_options c_options = options;
-    c_options.radius_function_user = &field;
-    return detail::make(out, [&](auto **points) { return field.after(sample(c_options, points)); });
+    });
+}
+
+/// Samples of a cuboid, each with a radius of its own; see azulejo_volume_adaptive_sample.
+inline Status try_volume_adaptive_sample(const Context &context,
+                                         const VolumeAdaptiveOptions &options, Points &out,
+                                         VolumeReport *report = nullptr) {
+    const azulejo_volume_adaptive_options &c_options = options;
+    return detail::with_radius(c_options, out, [&](const auto &o, auto **points) {
+        return azulejo_volume_adaptive_sample(context.get(), nullptr, &o, points, report);
+    });
+}
+
+/// The same inside a closed mesh.
+inline Status try_volume_adaptive_sample(const Context &context, const Mesh &mesh,
+                                         const VolumeAdaptiveOptions &options, Points &out,
+                                         VolumeReport *report = nullptr) {
+    const azulejo_volume_adaptive_options &c_options = options;
+    return detail::with_radius(c_options, out, [&](const auto &o, auto **points) {
+        return azulejo_volume_adaptive_sample(context.get(), mesh.get(), &o, points, report);
+    });
 }
 
 namespace detail {
@@ -2598,6 +2669,21 @@ inline Points volume_sample_inside(const Context &context, const Mesh &mesh,
                                    VolumeInsideReport *report = nullptr) {
     Points points;
     check(try_volume_sample_inside(context, mesh, options, points, report));
+    return points;
+}
+
+inline Points volume_adaptive_sample(const Context &context, const VolumeAdaptiveOptions &options,
+                                     VolumeReport *report = nullptr) {
+    Points points;
+    check(try_volume_adaptive_sample(context, options, points, report));
+    return points;
+}
+
+inline Points volume_adaptive_sample(const Context &context, const Mesh &mesh,
+                                     const VolumeAdaptiveOptions &options,
+                                     VolumeReport *report = nullptr) {
+    Points points;
+    check(try_volume_adaptive_sample(context, mesh, options, points, report));
     return points;
 }
 

@@ -525,6 +525,34 @@ export function volumeSampleInside(mesh: Mesh, options: VolumeInsideOptions): {
     surfaceSamples: number;
 };
 
+/** Options of sets of volumes whose radius varies. */
+export interface VaryingVolumeOptions extends Cuboid, Watched {
+    /** With a mesh, in radii: places may stay open nearer to the surface than sqrt(3) times this; default 0.0625. */
+    tolerance?: number;
+    /** Another seed gives another set. Default 0. */
+    seed?: Seed;
+}
+
+/**
+ * A maximal set of a cuboid, or with a mesh of its inside, with radii on a grid of `gridSize`, numbers along x, y and z; x is the
+ * fastest. The grid lies over the cuboid or the box around the mesh, with points on all faces, and is linear between them.
+ */
+export function volumeAdaptiveSample(
+    options: VaryingVolumeOptions,
+    gridValues: Numbers,
+    gridSize: readonly [number, number, number],
+    mesh?: Mesh | null,
+): {
+    /** x y z of each sample. */
+    positions: Float32Array;
+    /** The radius of each sample: two are at least the mean of theirs apart. */
+    radii: Float64Array;
+    /** The least radius of a sample. */
+    radius: number;
+    /** The largest radius on the grid: no place is farther from all samples. */
+    coveringRadius: number;
+};
+
 export interface MaskOptions extends Watched {
     /** The pixels along x: 2 to 1,024, and up to 64 with a depth above 1. Required. */
     width: number;

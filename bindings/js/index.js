@@ -83,6 +83,7 @@ const VOLUME = { ...CUBOID, ...GIVEN, ...ORDERING, radius: 0, count: 0, seed: 0,
 const CLASSES_IN_SPACE = { ...CUBOID, ...GIVEN, seed: 0 };
 const SPACE = { ...CUBOID, radius: 0 };
 const INSIDE = { ...WATCHED, ...GIVEN, ...ORDERING, radius: 0, count: 0, surface: "open", tolerance: 0.0625, thickness: 0, seed: 0 };
+const VARYING_VOLUME = { ...CUBOID, tolerance: 0.0625, seed: 0 };
 const MAXIMAL = { ...DOMAIN, radius: 0, seed: 0 };
 const MERGE = { ...DOMAIN, radius: 0, seed: 0, maximalPieces: false };
 const PIECE = { positions: null, min: [0, 0], max: [1, 1] };
@@ -582,6 +583,23 @@ export function volumeSampleInside(mesh, options) {
         const [positions, ranks, report] = call.make("volume_sample_inside", args, ...types);
         const [found, coveringRadius, depth, surfaceSamples] = report;
         return withRanks({ positions, radius: found, coveringRadius, depth, surfaceSamples }, ranks);
+    }, options);
+}
+
+export function volumeAdaptiveSample(options, gridValues, gridSize, mesh = null) {
+    const { domainMin, domainMax, boundary, tolerance } = options ?? {};
+    const [unused, where] = mesh === null ? [{ tolerance }, "without"] : [{ domainMin, domainMax, boundary }, "with"];
+    for (const [name, value] of Object.entries(unused)) {
+        if (value !== undefined) throw new TypeError(`${name}: has no effect ${where} a mesh`);
+    }
+    options = withDefaults(VARYING_VOLUME, options);
+    return calling((call) => {
+        const numbers = [...domainOf(options, 3), ...corner("gridSize", gridSize, 3).map((x) => whole("gridSize", x)), options.tolerance];
+        const pointer = mesh === null ? 0 : meshPointer(mesh);
+        const args = [pointer, call.options(numbers), seedOf(options), ...call.rows("gridValues", gridValues, Float32Array, 1)];
+        const types = [Float32Array, Float64Array, Float64Array];
+        const [positions, radii, [radius, coveringRadius]] = call.make("volume_adaptive_sample", args, ...types);
+        return { positions, radii, radius, coveringRadius };
     }, options);
 }
 

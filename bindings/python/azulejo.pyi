@@ -558,6 +558,18 @@ def volume_sample_inside(
     threads: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> Points: ...
+def volume_adaptive_sample(
+    grid_values: ArrayLike,
+    *,
+    mesh: Optional[_MeshLike] = None,
+    domain_min: Optional[_Numbers] = None,
+    domain_max: Optional[_Numbers] = None,
+    boundary: _Boundary = "periodic",
+    tolerance: SupportsFloat = 0.0625,
+    seed: SupportsIndex = 0,
+    threads: SupportsIndex = 0,
+    progress: _Progress = None,
+) -> Points: ...
 def mask_create(
     width: SupportsIndex,
     height: SupportsIndex,

@@ -117,8 +117,7 @@ typedef struct azulejo_plane_report {
     double smallest_distance; ///< The smallest distance between two points.
     double mean_distance; ///< The mean distance from a point to its nearest neighbour.
     double hexagonal_distance; ///< d_max; infinite for no point.
-    /// The smallest distance in units of d_max: about 0.77 for maximal Poisson-disk sets, at most 1
-    /// on a periodic domain.
+    /// The smallest distance in units of d_max: about 0.77 for maximal sets, at most 1 on a torus.
     double rho;
     /// The covering radius: d_max / sqrt(3) for a hexagonal lattice; infinite for no point.
     double covering_radius;

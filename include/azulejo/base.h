@@ -77,8 +77,7 @@ uint32_t azulejo_version(void);
 /// are refused with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
 uint32_t azulejo_has_embree(void);
 
-/// Called repeatedly during a call: see "Progress" in azulejo.h. Returns 0 to continue, any other
-/// value to cancel the call.
+/// Called repeatedly during a call: see "Progress" in azulejo.h. Returns 0 to go on, else cancels.
 /// - user: the progress_user of the options or of azulejo_context_watch.
 /// - done: the fraction of the call that is done, from 0 to 1.
 typedef uint32_t (*azulejo_progress_fn)(void *user, double done);
@@ -399,8 +398,7 @@ const uint32_t *azulejo_mesh_indices(const azulejo_mesh *mesh);
 double azulejo_mesh_area(const azulejo_mesh *mesh);
 
 /// Writes to `origin`, x y z, what the positions of the mesh and of its samples are relative to, in
-/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for other meshes, and
-/// for NULL.
+/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for others, and NULL.
 void azulejo_mesh_origin(const azulejo_mesh *mesh, double *origin);
 
 /// Frees the mesh; its memory is released once no psp handle uses it any more.

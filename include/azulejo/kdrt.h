@@ -305,8 +305,7 @@ typedef struct azulejo_kdrt_merge_report {
 /// A set of samples that was made independently, such as by azulejo_kdrt_sample on a bounded domain
 /// or by azulejo_kdrt_sample_window.
 typedef struct azulejo_kdrt_merge_piece {
-    /// The samples, x y each, with min <= x < max, no two of them closer than the radius. They need
-    /// not be maximal.
+    /// The samples, x y each, with min <= x < max, none closer than the radius; maximal or not.
     const float *positions;
     size_t count; ///< The number of samples.
     double min[2]; ///< The lower corner of the piece's rectangle, x y.

@@ -59,12 +59,10 @@ azulejo_status azulejo_psp_report_init(azulejo_psp_report *report, size_t struct
 /// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2).
 #define AZULEJO_PRIORITY_PROJECTOR 1
 
-/// Each iteration has a projector for every part of the mesh in a cube of 48 radii that faces about
-/// one direction: the default.
+/// A projector for every part of the mesh in a cube of 48 radii that faces about one direction.
 #define AZULEJO_PROJECTORS_LOCAL 0
 
-/// Each iteration has three orthogonal projectors for the whole mesh, as in the thesis (section
-/// 3.3.1).
+/// Three orthogonal projectors for the whole mesh in each iteration (thesis section 3.3.1).
 #define AZULEJO_PROJECTORS_GLOBAL 1
 
 #define AZULEJO_ENGINE_EMBREE 0 ///< Ray packets of Embree find where patterns meet the mesh.
@@ -178,8 +176,7 @@ azulejo_status azulejo_psp_fill(azulejo_psp *psp, azulejo_psp_report *report);
 /// edited by rising ids. Several threads may do so at once. O(samples).
 azulejo_status azulejo_psp_points(const azulejo_psp *psp, azulejo_points **out);
 
-/// Frees the handle, but not the points taken from it. Must not be called from its own progress
-/// callback.
+/// Frees the handle, but not the points taken from it. Not from its own progress callback.
 void azulejo_psp_free(azulejo_psp *psp);
 
 /// Samples a mesh in one call with one progress: azulejo_psp_create, azulejo_psp_advance by
@@ -250,8 +247,7 @@ azulejo_status azulejo_psp_erase_ids(azulejo_psp *psp,
 ///   already, or that are too close to a sample or a given sample by now.
 azulejo_status azulejo_psp_restore(azulejo_psp *psp, const azulejo_points *points);
 
-/// Adds given samples to those of the options. Samples of the set that are closer to one than its
-/// clearance are erased.
+/// Adds given samples to those of the options, and erases samples within their clearances.
 /// - clearances: one for each, 0 or more; NULL: the radius of the set.
 /// - first_id: the id of the first of them, which the others follow; NULL if it is not wanted.
 ///   Those of the options have the ids from 0 on. Ids of given samples and of samples are
@@ -265,8 +261,7 @@ azulejo_status azulejo_psp_add_given(azulejo_psp *psp,
                                      uint64_t *first_id,
                                      azulejo_points **erased);
 
-/// Removes given samples by their ids: the surface that they covered is filled by the next
-/// azulejo_psp_refill.
+/// Removes given samples by their ids: azulejo_psp_refill then fills what they covered.
 /// - O(given samples).
 azulejo_status azulejo_psp_remove_given(azulejo_psp *psp, const uint64_t *ids, size_t count);
 

@@ -170,6 +170,43 @@ azulejo_status azulejo_mesh_contains(const azulejo_context *context,
                                      size_t count,
                                      uint8_t *inside);
 
+/// Options of azulejo_volume_adaptive_sample, which requires `grid_values` or `radius_function`.
+typedef struct azulejo_volume_adaptive_options {
+    uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
+    uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic. Not inside a mesh.
+    double domain_min[3]; ///< The lower corner, x y z; default 0 0 0. Not inside a mesh.
+    double domain_max[3]; ///< The upper corner; default 1 1 1. Not inside a mesh.
+    const float *grid_values; ///< Radii above 0, x fastest, then y. Default NULL.
+    size_t grid_size[3]; ///< Their number along x, y, z: at least 1 1 1. Default 0 0 0: no grid.
+    azulejo_radius_fn radius_function; ///< Instead of a grid. Default NULL.
+    void *radius_function_user; ///< Passed to `radius_function`.
+    double smallest; ///< The smallest value of `radius_function`, above 0. Default 0: no function.
+    double largest; ///< Its largest value. Default 0.
+    double slope; ///< As in azulejo_psp_adaptive_options; default 0.
+    double tolerance; ///< Of the inside of a mesh, in radii: 1/256 to 1/2; default 0.0625.
+    uint64_t seed; ///< Any number; another seed gives another set. Default 0.
+    azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
+    void *progress_user; ///< Passed to the progress callback.
+} azulejo_volume_adaptive_options;
+
+/// Writes the defaults.
+azulejo_status azulejo_volume_adaptive_options_init(azulejo_volume_adaptive_options *options,
+                                                    size_t struct_size);
+
+/// Makes a maximal set of samples, each with a radius of its own (azulejo_points_radii), of a
+/// cuboid or, unless `mesh` is NULL, inside a closed mesh. Rule and errors are those of
+/// azulejo_psp_adaptive_sample, the tolerance that of azulejo_volume_sample, inside a mesh with
+/// the radius of the place, and the change of the radius over it. A grid lies over the cuboid or
+/// the box around the mesh, its first and last radii on the faces, linear along each axis. A
+/// function is called some 60 times a sample; its slope need not hold across the seam of a torus.
+/// - report: the least radius of a sample, and the largest that there can be.
+/// - O(samples) time and memory for slopes below about 1.
+azulejo_status azulejo_volume_adaptive_sample(const azulejo_context *context,
+                                              const azulejo_mesh *mesh,
+                                              const azulejo_volume_adaptive_options *options,
+                                              azulejo_points **out,
+                                              azulejo_volume_report *report);
+
 /// Options of azulejo_volume_relax.
 typedef struct azulejo_volume_relax_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.

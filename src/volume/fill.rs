@@ -14,13 +14,13 @@ use crate::volume::shape::{Shape, Voxels};
 use crate::volume::voxels::{Level, Voxel};
 
 /// The first darts for each sample that will stand in the region: they bring three quarters of them.
-const FIRST_DARTS: f64 = 20.0;
+pub const FIRST_DARTS: f64 = 20.0;
 
 /// A region that is thinner than this, in radii, has as many samples as one of this thickness: those of a plane.
 const THIN: f64 = 0.95;
 
 /// The darts of a round for each voxel: from the first round on, the last for all others.
-const DARTS: [f64; 4] = [1.0, 1.0, 1.0, 2.0];
+pub const DARTS: [f64; 4] = [1.0, 1.0, 1.0, 2.0];
 
 /// The part of a fill that is done at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

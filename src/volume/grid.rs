@@ -105,9 +105,9 @@ pub struct Touched {
 /// A place in a cell where a sample may be put.
 #[derive(Clone, Copy)]
 pub struct Dart {
-    cell: u16,
+    pub cell: u16,
     /// The vector from the cell's centre, in radii.
-    offset: [f32; 3],
+    pub offset: [f32; 3],
 }
 
 impl Grid {
@@ -284,14 +284,37 @@ impl Grid {
         }
     }
 
-    /// Puts a ball on a page of a cell.
+    /// Puts a ball on a page of a cell: on which one, and in which lane.
     #[inline(always)]
-    fn list(&mut self, cell: usize, [x, y, z]: [f32; 3]) {
+    pub fn list(&mut self, cell: usize, [x, y, z]: [f32; 3]) -> (usize, usize) {
         let filled = self.filled[cell] as usize;
         self.filled[cell] += 1;
         let page = if filled < LANES { cell } else { self.page_after(cell, filled) };
         let (Page([xs, ys, zs]), lane) = (&mut self.pages[page], filled % LANES);
         (xs[lane], ys[lane], zs[lane]) = (x, y, z);
+        (page, lane)
+    }
+
+    /// The centres of the balls on a page, which for the first page of a cell has its number.
+    #[inline(always)]
+    pub fn page(&self, page: usize) -> &[[f32; LANES]; 3] {
+        &self.pages[page].0
+    }
+
+    /// The number of the page of the same cell that follows, or 0.
+    #[inline(always)]
+    pub fn following(&self, page: usize) -> usize {
+        self.next[page] as usize
+    }
+
+    /// The number of pages of all cells.
+    pub fn pages(&self) -> usize {
+        self.pages.len()
+    }
+
+    /// The sides of a cell in lattice units.
+    pub fn sides(&self) -> [f64; 3] {
+        self.sides
     }
 
     /// The page for the next ball of a cell whose first page is full.
@@ -330,6 +353,19 @@ impl Grid {
         if GIVEN && self.given.stop(lanes, dart.cell, dart.offset) {
             return None;
         }
+        let (point, rounded) = self.rounded(dart);
+        if self.is_within(lanes, &rounded, CERTAIN)
+            || self.is_within(lanes, &rounded, POSSIBLE) && self.is_covered(point)
+            || GIVEN && self.given.cover(dart.cell, point)
+        {
+            return None;
+        }
+        Some(self.absolute(point))
+    }
+
+    /// The lattice point next to a dart, relative to the region, and the dart that lies there.
+    #[inline(always)]
+    pub fn rounded(&self, dart: &Dart) -> (Centre, Dart) {
         let (place, mut point, mut offset, mut axis) = (self.places[dart.cell as usize], [0; 3], [0.0; 3], 0);
         while axis < 3 {
             let centre = (f64::from(place[axis]) + 0.5) * self.sides[axis];
@@ -338,14 +374,7 @@ impl Grid {
             offset[axis] = ((f64::from(point[axis]) - centre) * self.per_radius) as f32;
             axis += 1;
         }
-        let rounded = Dart { offset, ..*dart };
-        if self.is_within(lanes, &rounded, CERTAIN)
-            || self.is_within(lanes, &rounded, POSSIBLE) && self.is_covered(point)
-            || GIVEN && self.given.cover(dart.cell, point)
-        {
-            return None;
-        }
-        Some(self.absolute(point))
+        (point, Dart { offset, ..*dart })
     }
 
     /// True if the squared distance of a dart from a ball's centre is below a limit.
@@ -466,12 +495,12 @@ impl Grid {
 }
 
 #[inline(always)]
-fn splat<L: Lanes>(lanes: L, [x, y, z]: [f32; 3]) -> [L::Floats; 3] {
+pub fn splat<L: Lanes>(lanes: L, [x, y, z]: [f32; 3]) -> [L::Floats; 3] {
     [lanes.splat(x), lanes.splat(y), lanes.splat(z)]
 }
 
 #[inline(always)]
-fn sum_of_squares<L: Lanes>(lanes: L, [x, y, z]: [L::Floats; 3]) -> L::Floats {
+pub fn sum_of_squares<L: Lanes>(lanes: L, [x, y, z]: [L::Floats; 3]) -> L::Floats {
     lanes.add(lanes.add(lanes.mul(x, x), lanes.mul(y, y)), lanes.mul(z, z))
 }
 

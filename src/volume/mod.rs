@@ -11,6 +11,7 @@
 //!
 //! All positions are points of the integer lattice of the plane, with a third axis (`plane/lattice.rs`).
 
+pub mod adaptive;
 mod blocks;
 mod body;
 mod classes;

@@ -32,10 +32,13 @@ use azulejo::mesh::Mesh;
 use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
 use azulejo::thin::{self, thin};
 use azulejo::volume;
-use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Interior, Order, Points, Progress, Region, Result};
+use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Order, Points, Progress, Region, Result};
 
 use crate::common::meshes;
 use crate::common::sets::random_points;
+use volumes::VOLUME;
+
+mod volumes;
 
 /// A call with all arguments but its context and its progress callback; the result as text, in which floats are exact.
 type Run = fn(&Context, Option<&Progress>) -> Result<String>;
@@ -91,7 +94,6 @@ static IN_SOLID: LazyLock<Vec<[f32; 3]>> = LazyLock::new(|| {
 static RADII: LazyLock<Vec<f32>> = LazyLock::new(|| MESH.positions().iter().map(|[x, ..]| 0.07 + 0.03 * x).collect());
 static CLASSES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.06, 0.03], 1.0).unwrap());
 static MULTIPLES: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[1.0, 0.5], 1.0).unwrap());
-static EQUAL: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.08, 0.08], 1.0).unwrap());
 /// Samples of the mesh.
 static ON_MESH: LazyLock<Points<3>> =
     LazyLock::new(|| psp::sample(&Context::new(1).unwrap(), &MESH, &psp::Options::new(0.08), None).unwrap().0);
@@ -608,65 +610,6 @@ const RELAXATION: &[Call] = &[
         reports: 3,
         run: |c, p| said(dcr::surface::triangulate(c, &MESH, &ON_MESH.triangles, &ON_MESH.barycentrics, p)),
         refused: &[("barycentrics: ", |c, p| said(dcr::surface::triangulate(c, &MESH, &[0], &[], p)))],
-    },
-];
-
-const VOLUME: &[Call] = &[
-    Call {
-        name: "volume::sample",
-        reports: 15,
-        run: |c, p| samples(volume::sample(c, &volume::Options::new(0.04).domain(CUBE), p)),
-        refused: &[
-            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(-0.1), p))),
-            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-4), p))),
-            ("radius: ", |c, p| said(volume::sample(c, &volume::Options::new(1e-7), p))),
-            ("leaf_size: ", |c, p| said(volume::sample(c, &volume::Options::new(0.1).leaf_size(2.0), p))),
-            ("domain_max: ", |c, p| {
-                said(volume::sample(c, &volume::Options::new(0.1).domain(Domain { max: [1.0, 0.0, 1.0], ..CUBE }), p))
-            }),
-        ],
-    },
-    Call {
-        name: "volume::sample_classes",
-        reports: 10,
-        run: |c, p| said(volume::sample_classes(c, &volume::ClassesOptions::default().domain(CUBE), &EQUAL, p)),
-        refused: &[
-            ("radii: ", |c, p| {
-                said(volume::sample_classes(c, &Default::default(), &Classes::new(1, &[1e-9]).unwrap(), p))
-            }),
-            ("domain_max: ", |c, p| {
-                let domain = Domain { max: [1.0, 0.0, 1.0], ..CUBE };
-                said(volume::sample_classes(c, &volume::ClassesOptions::default().domain(domain), &EQUAL, p))
-            }),
-        ],
-    },
-    Call {
-        name: "volume::sample_inside",
-        reports: 5,
-        run: |c, p| {
-            samples(volume::sample_inside(
-                c,
-                &SOLID,
-                &volume::InsideOptions::new(0.03).surface(volume::Surface::First),
-                p,
-            ))
-        },
-        refused: &[
-            ("mesh: ", |c, p| said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(0.1), p))),
-            ("radius: ", |c, p| said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(-0.1), p))),
-            ("tolerance: ", |c, p| {
-                said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
-            }),
-            ("thickness: ", |c, p| {
-                said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).thickness(-1.0), p))
-            }),
-        ],
-    },
-    Call {
-        name: "interior::Interior::contains_each",
-        reports: 3,
-        run: |c, p| said(Interior::of(&SOLID).contains_each(c, &[[0.1; 3]; 10_000], p)),
-        refused: &[("positions: ", |c, p| said(Interior::of(&SOLID).contains_each(c, &[[f32::NAN; 3]], p)))],
     },
 ];
 

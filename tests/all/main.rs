@@ -68,6 +68,7 @@ mod thin;
 #[cfg(feature = "embree")]
 mod traces;
 mod volume;
+mod volume_adaptive;
 mod volume_classes;
 mod volume_given;
 mod volume_inside;

@@ -147,6 +147,23 @@ FIELD(azulejo_volume_inside_options, given_clearances, 80);
 FIELD(azulejo_volume_inside_options, given_count, 88);
 FIELD(azulejo_volume_inside_options, thickness, 96);
 
+SIZE(azulejo_volume_adaptive_options, 160);
+FIELD(azulejo_volume_adaptive_options, struct_size, 0);
+FIELD(azulejo_volume_adaptive_options, boundary, 4);
+FIELD(azulejo_volume_adaptive_options, domain_min, 8);
+FIELD(azulejo_volume_adaptive_options, domain_max, 32);
+FIELD(azulejo_volume_adaptive_options, grid_values, 56);
+FIELD(azulejo_volume_adaptive_options, grid_size, 64);
+FIELD(azulejo_volume_adaptive_options, radius_function, 88);
+FIELD(azulejo_volume_adaptive_options, radius_function_user, 96);
+FIELD(azulejo_volume_adaptive_options, smallest, 104);
+FIELD(azulejo_volume_adaptive_options, largest, 112);
+FIELD(azulejo_volume_adaptive_options, slope, 120);
+FIELD(azulejo_volume_adaptive_options, tolerance, 128);
+FIELD(azulejo_volume_adaptive_options, seed, 136);
+FIELD(azulejo_volume_adaptive_options, progress, 144);
+FIELD(azulejo_volume_adaptive_options, progress_user, 152);
+
 SIZE(azulejo_volume_inside_report, 56);
 FIELD(azulejo_volume_inside_report, struct_size, 0);
 FIELD(azulejo_volume_inside_report, reserved, 4);
@@ -555,6 +572,10 @@ static void signatures(void) {
                                     azulejo_volume_report *) = azulejo_volume_sample;
     azulejo_status (*classes_in_space)(const azulejo_context *, const azulejo_volume_options *, const azulejo_classes *,
                                        azulejo_points **, azulejo_classes_report *) = azulejo_volume_sample_classes;
+    azulejo_status (*volume_adaptive_init)(azulejo_volume_adaptive_options *, size_t) =
+        azulejo_volume_adaptive_options_init;
+    azulejo_status (*volume_adaptive)(const azulejo_context *, const azulejo_mesh *, const azulejo_volume_adaptive_options *,
+                                      azulejo_points **, azulejo_volume_report *) = azulejo_volume_adaptive_sample;
     azulejo_status (*inside_options_init)(azulejo_volume_inside_options *, size_t) = azulejo_volume_inside_options_init;
     azulejo_status (*inside_report_init)(azulejo_volume_inside_report *, size_t) = azulejo_volume_inside_report_init;
     azulejo_status (*sample_inside)(const azulejo_context *, const azulejo_mesh *, const azulejo_volume_inside_options *,
@@ -624,6 +645,7 @@ static void signatures(void) {
     CHECK(psp_adaptive_sample && kdrt_create && kdrt_window && kdrt_free);
     CHECK(kdrt_create_wide && kdrt_window_into && kdrt_window_capacity && kdrt_unit);
     CHECK(volume_options_init && volume_report_init && volume_sample && classes_in_space);
+    CHECK(volume_adaptive_init && volume_adaptive);
     CHECK(inside_options_init && inside_report_init && sample_inside && mesh_is_closed && mesh_contains);
     CHECK(mask_create && mask_size && mask_ranks && mask_values && mask_dither && mask_dither_bytes && mask_free);
     CHECK(thin && selection_count && selection_indices && selection_ranks && selection_free);

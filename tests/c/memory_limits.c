@@ -71,6 +71,18 @@ static azulejo_status volume_tiled(const azulejo_context *context, size_t count)
     return of_cube(context, &o);
 }
 
+static azulejo_status volume_adaptive(const azulejo_context *context, size_t count) {
+    /* The mean of 1 / radius^3 of a ramp from 1 to 2.1 is 0.3515. */
+    const float least = (float)cbrt(0.7336 * 0.3515 / (double)count), radii[2] = {least, (float)(2.1 * least)};
+    azulejo_volume_adaptive_options o;
+    azulejo_points *points = NULL;
+    ACCEPTED(azulejo_volume_adaptive_options_init(&o, sizeof o));
+    o.grid_values = radii;
+    o.grid_size[0] = 2;
+    o.grid_size[1] = o.grid_size[2] = 1;
+    return freed(azulejo_volume_adaptive_sample(context, NULL, &o, &points, NULL), points);
+}
+
 /* The cube has a volume of 1. */
 static azulejo_status volume_inside(const azulejo_context *context, size_t count) {
     azulejo_volume_inside_options o;
@@ -629,6 +641,7 @@ static const struct {
     {"maximal", maximal, 500000, MOST_ASKED},
     {"volume", volume, 1000000, MOST_ASKED},
     {"volume, tiled", volume_tiled, 1000000, MOST_ASKED},
+    {"volume, adaptive", volume_adaptive, 500000, MOST_ASKED_UNEVENLY},
     {"volume, inside a mesh", volume_inside, 500000, MOST_ASKED_AROUND},
     {"volume, shell of a mesh", volume_shell, 500000, MOST_ASKED_AROUND},
     {"volume, progressive", volume_progressive, 400000, MOST_ASKED_UNEVENLY},

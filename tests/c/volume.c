@@ -260,6 +260,78 @@ static void relaxation_refused(void) {
     CHECK(out == UNTOUCHED);
 }
 
+typedef struct { double least, slope; } ramp;
+
+static double along_x(void *user, const double *position) {
+    const ramp *r = user;
+    return r->least + r->slope * position[0];
+}
+
+/* All pairs of a ramp on a torus, and random places of it; and the same radii on a grid. */
+static void follows_a_radius(void) {
+    ramp r = {0.06, 0.12};
+    azulejo_volume_adaptive_options o;
+    azulejo_volume_report report;
+    azulejo_points *points = NULL, *again = NULL, *grid = NULL, *out = UNTOUCHED;
+    const float ends[2] = {0.06f, 0.18f};
+    const float *xyz;
+    const double *radii;
+    uint64_t state = 11;
+    size_t i, j, k, found = 0;
+    ACCEPTED(azulejo_volume_adaptive_options_init(&o, sizeof o));
+    ACCEPTED(azulejo_volume_report_init(&report, sizeof report));
+    REFUSED(INVALID, "radius_function: is NULL", azulejo_volume_adaptive_sample(one, NULL, &o, &out, NULL));
+    o.radius_function = along_x;
+    o.radius_function_user = &r;
+    o.smallest = 0.06;
+    o.largest = 0.18;
+    o.slope = 0.12;
+    o.seed = 5;
+    ACCEPTED(azulejo_volume_adaptive_sample(one, NULL, &o, &points, &report));
+    ACCEPTED(azulejo_volume_adaptive_sample(three, NULL, &o, &again, NULL));
+    xyz = azulejo_points_positions(points);
+    radii = azulejo_points_radii(points);
+    CHECK(report.samples > 500 && report.radius >= 0.06 && report.covering_radius == 0.18);
+    CHECK(azulejo_points_count(again) == report.samples);
+    CHECK(memcmp(xyz, azulejo_points_positions(again), 3 * report.samples * sizeof *xyz) == 0);
+    for (i = 0; i < report.samples + 3000; i++) {
+        double place[3], radius, excess = 1;
+        const int is_sample = i < report.samples;
+        for (k = 0; k < 3; k++) place[k] = is_sample ? xyz[3 * i + k] : random_number(&state);
+        radius = along_x(&r, place);
+        if (is_sample) CHECK(radii[i] == radius);
+        for (j = 0; j < (is_sample ? i : report.samples); j++) {
+            double square = 0;
+            for (k = 0; k < 3; k++) {
+                const double d = fabs(place[k] - xyz[3 * j + k]), turned = fmin(d, 1 - d);
+                square += turned * turned;
+            }
+            excess = fmin(excess, sqrt(square) - (radius + radii[j]) / 2);
+        }
+        if (is_sample) CHECK(excess >= 0);
+        else CHECK(excess <= 1e-6);
+    }
+    o.radius_function_user = NULL;
+    o.radius_function = NULL;
+    o.smallest = o.largest = o.slope = 0;
+    o.grid_values = ends;
+    REFUSED(INVALID, "grid_size: [0, 0, 0]", azulejo_volume_adaptive_sample(one, NULL, &o, &out, NULL));
+    o.grid_size[0] = 2;
+    o.grid_size[1] = o.grid_size[2] = 1;
+    ACCEPTED(azulejo_volume_adaptive_sample(one, NULL, &o, &grid, NULL));
+    found = azulejo_points_count(grid);
+    CHECK(found > 500 && found < 1.1 * (double)report.samples && 1.1 * (double)found > (double)report.samples);
+    o.slope = 0.1;
+    REFUSED(INVALID, "slope: 0.1 has no effect", azulejo_volume_adaptive_sample(one, NULL, &o, &out, NULL));
+    o.slope = 0;
+    o.tolerance = 0.1;
+    REFUSED(INVALID, "tolerance: 0.1 has no effect", azulejo_volume_adaptive_sample(one, NULL, &o, &out, NULL));
+    CHECK(out == UNTOUCHED);
+    azulejo_points_free(points);
+    azulejo_points_free(again);
+    azulejo_points_free(grid);
+}
+
 static const uint32_t faces[36] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                    2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
 
@@ -441,6 +513,7 @@ int main(void) {
     around_in_order_and_counted(AZULEJO_BOUNDARY_PERIODIC);
     around_in_order_and_counted(AZULEJO_BOUNDARY_BOUNDED);
     refused();
+    follows_a_radius();
     fills_shells();
     has_classes();
     relaxes(AZULEJO_BOUNDARY_PERIODIC);

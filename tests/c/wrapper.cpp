@@ -507,6 +507,37 @@ void insides() {
                  [&] { azulejo::volume_sample_inside(context, open, options); }));
 }
 
+void varying_volumes() {
+    const azulejo::Context context(2);
+    azulejo::VolumeAdaptiveOptions options;
+    azulejo::VolumeReport report;
+    options.smallest = 0.06;
+    options.largest = 0.12;
+    options.slope = 0.06;
+    options.set_radius([](const std::array<double, 3> &position) { return 0.06 + 0.06 * position[0]; });
+    const auto points = azulejo::volume_adaptive_sample(context, options, &report);
+    CHECK(points.size() == report.samples && points.size() > 1000 && points.radii().size() == points.size());
+    CHECK(points.radii()[7] == 0.06 + 0.06 * static_cast<double>(points.positions()[21]));
+    azulejo::VolumeAdaptiveOptions on_grid;
+    const std::vector<float> values = {0.05f, 0.1f, 0.05f, 0.1f};
+    on_grid.set_grid(values, {2, 1, 2});
+    CHECK(throws(AZULEJO_ERROR_INVALID_ARGUMENT, "grid_size", [&] { on_grid.set_grid(values, {2, 1, 3}); }));
+    CHECK(azulejo::volume_adaptive_sample(context, on_grid).size() > 1000);
+    const std::vector<float> corners = {0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2};
+    const azulejo::Mesh mesh(corners, std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+    const auto inside = azulejo::volume_adaptive_sample(context, mesh, on_grid);
+    CHECK(inside.size() > 1000 && inside.triangles().empty());
+    struct Mishap {};
+    options.set_radius([](const std::array<double, 3> &) -> double { throw Mishap(); });
+    bool caught = false;
+    try {
+        azulejo::volume_adaptive_sample(context, options);
+    } catch (const Mishap &) {
+        caught = true;
+    }
+    CHECK(caught);
+}
+
 void adaptive() {
     const azulejo::Context context(3);
     const azulejo::Mesh mesh(positions, indices);
@@ -723,6 +754,7 @@ int main() {
     masks();
     volumes();
     insides();
+    varying_volumes();
     adaptive();
     frames();
     random_numbers();

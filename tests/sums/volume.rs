@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use azulejo::dcr::volume::{InsideOptions as RelaxInsideOptions, Options as RelaxOptions, relax, relax_inside};
+use azulejo::volume::adaptive::{self, Radius};
 use azulejo::volume::{ClassesOptions, InsideOptions, Options, Surface, sample, sample_classes, sample_inside};
 use azulejo::{Boundary, Classes, Context, Domain, Given, Order, Result};
 
@@ -63,7 +64,25 @@ pub fn sums(context: &Context, is_small: bool, list: &mut List) -> Result<()> {
         list.samples(&format!("volume {place}, relaxed"), &relaxed.into());
         list.numbers(&format!("volume {place}, relaxed: report"), &[report.motion, report.smallest_distance]);
     }
-    insides(context, radius, list)
+    insides(context, radius, list)?;
+    adaptives(context, radius, is_small, list)
+}
+
+/// Radii that grow along y.
+fn adaptives(context: &Context, radius: f64, is_small: bool, list: &mut List) -> Result<()> {
+    for (seed, (name, domain, least)) in (91..).zip(CUBOIDS) {
+        let least = if is_small { 3.0 * least } else { least };
+        let slope = 1.5 * least / domain.extent()[1];
+        let at = |[_, y, _]: [f64; 3]| least + slope * (y - domain.min[1]);
+        let field = Radius::Function { at: &at, smallest: least, largest: 2.51 * least, slope: 1.000001 * slope };
+        let options = adaptive::Options::new(field).domain(domain).seed(seed);
+        list.samples(&format!("{name}, adaptive"), &adaptive::sample(context, &options, None)?.0);
+    }
+    let mesh = Arc::new(torus(60, 30, false)?);
+    let values = [radius as f32, 3.0 * radius as f32];
+    let options = adaptive::InsideOptions::new(Radius::Grid { values: &values, size: [2, 1, 1] }).seed(98);
+    list.samples("volume inside, adaptive", &adaptive::sample_inside(context, &mesh, &options, None)?.0);
+    Ok(())
 }
 
 fn insides(context: &Context, radius: f64, list: &mut List) -> Result<()> {

@@ -20,6 +20,7 @@ mod surface;
 mod surface_varying;
 mod thin;
 mod volume;
+mod volume_varying;
 mod watch;
 
 use azulejo::{Boundary, Domain, Given, Order};

@@ -106,6 +106,14 @@ impl<'py, T: Entry> Array<'py, T> {
         }
     }
 
+    /// A grid of layers of rows, as its entries and their numbers along x, y and z.
+    pub(crate) fn grid(&self) -> PyResult<(&[T], [usize; 3])> {
+        match *self.shape() {
+            [z, y, x] if x > 0 && y > 0 && z > 0 => Ok((self.entries(), [x, y, z])),
+            ref shape => Err(invalid(self.argument, format!("its shape is {shape:?}, not [z, y, x] with all above 0"))),
+        }
+    }
+
     /// An array of n rows of `N`; an empty list is one without rows.
     pub(crate) fn rows<const N: usize>(&self) -> PyResult<&[[T; N]]> {
         match self.shape() {

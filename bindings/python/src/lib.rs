@@ -24,16 +24,16 @@ mod stream;
 mod taken;
 mod thin;
 mod volume;
+mod volume_adaptive;
 mod watch;
 
 /// Blue-noise sampling: maximal Poisson-disk sets in the plane, on triangle meshes and in space, and their relaxation.
 ///
 /// The plane: kdrt_sample, kdrt_sample_window, KdrtPlane, kdrt_sample_classes, kdrt_stream, kdrt_merge, maximal_sample,
 /// Plane. Meshes: Mesh, psp_sample, psp_sample_classes, psp_classes_with_density, psp_adaptive_sample,
-/// psp_adaptive_with_density, Psp. Space: volume_sample, volume_sample_classes,
-/// volume_sample_inside. Relaxation: dcr_relax, dcr_relax_classes,
-/// dcr_relax_density, dcr_scatter, dcr_relax_to_correlation, dcr_correlation_of_power, dcr_surface_relax, volume_relax,
-/// volume_relax_inside, dcr_remesh.
+/// psp_adaptive_with_density, Psp. Space: volume_sample, volume_sample_classes, volume_sample_inside, volume_adaptive_sample.
+/// Relaxation: dcr_relax, dcr_relax_classes, dcr_relax_density, dcr_scatter, dcr_relax_to_correlation, dcr_correlation_of_power,
+/// dcr_surface_relax, volume_relax, volume_relax_inside, dcr_remesh.
 /// Clouds: thin. Pixels: mask_create, mask_dither. Analysis: plane_measure, plane_coverage, space_measure,
 /// space_coverage, mesh_coverage, Spectrum, Differences and others. Plane and Psp are sets that are edited.
 ///
@@ -97,6 +97,8 @@ mod azulejo {
     use crate::thin::{_selection, Selection, thin};
     #[pymodule_export]
     use crate::volume::{VolumeReport, volume_sample, volume_sample_classes};
+    #[pymodule_export]
+    use crate::volume_adaptive::volume_adaptive_sample;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -66,7 +66,7 @@ pub(crate) struct Points {
     /// On meshes: u, v of each sample, float32, shape (n, 2): it lies at (1 - u - v) a + u b + v c.
     #[pyo3(get)]
     barycentrics: Option<Py<PyArray2<f32>>>,
-    /// The radius of each sample if radii vary, float64, shape (n,), in the units of the mesh.
+    /// The radius of each sample if radii vary, float64, shape (n,), in the units of the mesh or domain.
     #[pyo3(get)]
     radii: Option<Py<PyArray1<f64>>>,
     /// In progressive order: the rank of each sample, a distance, float32, shape (n,). The samples up to one are at least
@@ -175,6 +175,11 @@ impl Points {
     pub(crate) fn adaptive(py: Python<'_>, mut samples: azulejo_core::Points<3>, origin: [f64; 3]) -> PyResult<Self> {
         let radii = std::mem::take(&mut samples.radii);
         Ok(Self { radii: Some(line(py, radii)), ..Self::surface(py, samples, origin)? })
+    }
+
+    /// Samples of a volume whose radius varies: an empty set has radii too.
+    pub(crate) fn with_radii(self, py: Python<'_>, radii: Vec<f64>) -> Self {
+        Self { radii: Some(line(py, radii)), ..self }
     }
 
     /// Samples of a set that is edited: an empty set has ids too.

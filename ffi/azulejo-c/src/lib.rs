@@ -199,6 +199,7 @@ pub mod mesh_density;
 
 pub mod inside;
 pub mod volume;
+pub mod volume_adaptive;
 pub mod volume_relax;
 
 pub mod dcr;

@@ -69,8 +69,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_merge_piece {
-    /// The samples, x y each, with min <= x < max, no two of them closer than the radius. They need
-    /// not be maximal.
+    /// The samples, x y each, with min <= x < max, none closer than the radius; maximal or not.
     pub positions: *const f32,
     /// The number of samples.
     pub count: usize,

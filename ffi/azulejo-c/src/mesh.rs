@@ -298,8 +298,7 @@ pub unsafe extern "C" fn azulejo_mesh_area(mesh: *const azulejo_mesh) -> f64 {
 }
 
 /// Writes to `origin`, x y z, what the positions of the mesh and of its samples are relative to, in
-/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for other meshes, and
-/// for NULL.
+/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for others, and NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_origin(mesh: *const azulejo_mesh, origin: *mut f64) {
     // SAFETY: handed on from the caller.

@@ -19,6 +19,7 @@ use crate::status::AZULEJO_OK;
 use crate::surface::azulejo_dcr_surface_options_init;
 use crate::thin::azulejo_thin_options_init;
 use crate::volume::azulejo_volume_options_init;
+use crate::volume_adaptive::azulejo_volume_adaptive_options_init;
 use crate::volume_relax::{azulejo_relax_inside_options_init, azulejo_volume_relax_options_init};
 
 /// The root of the repository, whichever package compiles this crate.
@@ -168,6 +169,7 @@ fn written(name: &str) -> Vec<u8> {
         "azulejo_mask_options": azulejo_mask_options_init,
         "azulejo_volume_options": azulejo_volume_options_init,
         "azulejo_volume_inside_options": azulejo_volume_inside_options_init,
+        "azulejo_volume_adaptive_options": azulejo_volume_adaptive_options_init,
         "azulejo_volume_relax_options": azulejo_volume_relax_options_init,
         "azulejo_relax_inside_options": azulejo_relax_inside_options_init
     }

@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 
 use azulejo_core::Progress;
 
-/// Called repeatedly during a call: see "Progress" in azulejo.h. Returns 0 to continue, any other
-/// value to cancel the call.
+/// Called repeatedly during a call: see "Progress" in azulejo.h. Returns 0 to go on, else cancels.
 ///
 /// user: the progress_user of the options or of azulejo_context_watch.
 ///

@@ -82,11 +82,9 @@ pub const AZULEJO_PRIORITY_SQUARENESS: u32 = 0;
 /// The candidate of the earlier projector is kept, as in the thesis (section 3.3.2).
 pub const AZULEJO_PRIORITY_PROJECTOR: u32 = 1;
 
-/// Each iteration has a projector for every part of the mesh in a cube of 48 radii that faces about
-/// one direction: the default.
+/// A projector for every part of the mesh in a cube of 48 radii that faces about one direction.
 pub const AZULEJO_PROJECTORS_LOCAL: u32 = 0;
-/// Each iteration has three orthogonal projectors for the whole mesh, as in the thesis (section
-/// 3.3.1).
+/// Three orthogonal projectors for the whole mesh in each iteration (thesis section 3.3.1).
 pub const AZULEJO_PROJECTORS_GLOBAL: u32 = 1;
 
 /// Ray packets of Embree find where patterns meet the mesh.
@@ -409,8 +407,7 @@ pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *
     })
 }
 
-/// Frees the handle, but not the points taken from it. Must not be called from its own progress
-/// callback.
+/// Frees the handle, but not the points taken from it. Not from its own progress callback.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
     // SAFETY: handed on from the caller.

@@ -89,8 +89,7 @@ pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *con
     })
 }
 
-/// Adds given samples to those of the options. Samples of the set that are closer to one than its
-/// clearance are erased.
+/// Adds given samples to those of the options, and erases samples within their clearances.
 ///
 /// clearances: one for each, 0 or more; NULL: the radius of the set.
 ///
@@ -123,8 +122,7 @@ pub unsafe extern "C" fn azulejo_psp_add_given(
     })
 }
 
-/// Removes given samples by their ids: the surface that they covered is filled by the next
-/// azulejo_psp_refill.
+/// Removes given samples by their ids: azulejo_psp_refill then fills what they covered.
 ///
 /// O(given samples).
 #[unsafe(no_mangle)]

@@ -28,8 +28,7 @@ pub struct azulejo_plane_report {
     pub mean_distance: f64,
     /// d_max; infinite for no point.
     pub hexagonal_distance: f64,
-    /// The smallest distance in units of d_max: about 0.77 for maximal Poisson-disk sets, at most 1
-    /// on a periodic domain.
+    /// The smallest distance in units of d_max: about 0.77 for maximal sets, at most 1 on a torus.
     pub rho: f64,
     /// The covering radius: d_max / sqrt(3) for a hexagonal lattice; infinite for no point.
     pub covering_radius: f64,

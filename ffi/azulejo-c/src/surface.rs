@@ -21,8 +21,7 @@ pub struct azulejo_dcr_surface_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
     /// The largest number of steps; default 100. The call ends earlier when the set has converged.
-    /// 0 returns the samples as they are, those outside their triangle by rounding moved to its
-    /// edge.
+    /// 0 returns the samples as they are, those outside their triangle moved to its edge.
     pub max_iterations: u32,
     /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
     /// Any negative number, such as the default -1, selects 0.0005.

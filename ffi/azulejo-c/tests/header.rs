@@ -45,7 +45,7 @@ const HEADERS: [Header; 8] = [
     Header {
         name: "volume",
         page: "Volumes: maximal Poisson-disk sets of cuboids and inside meshes, and their relaxation.",
-        sources: &["volume", "inside", "volume_relax"],
+        sources: &["volume", "inside", "volume_adaptive", "volume_relax"],
     },
     Header {
         name: "dcr",

@@ -253,6 +253,21 @@ fn planes() {
         (options.radius, options.count, options.order) = (0.0, 3, AZULEJO_ORDER_PROGRESSIVE);
         read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
 
+        let mut options = defaults(azulejo_volume_adaptive_options_init);
+        let mut report = defaults(azulejo_volume_report_init);
+        options.radius_function = Some(radius_at);
+        (options.smallest, options.largest, options.slope) = (0.8, 1.0, 0.1);
+        let mesh = std::ptr::null();
+        let count = read_and_free(made(|out| {
+            azulejo_volume_adaptive_sample(context.get(), mesh, &options, out, &raw mut report)
+        }));
+        assert!(count > 0 && report.samples == count as u64);
+        let values = [0.8f32, 0.9];
+        options.radius_function = None;
+        (options.smallest, options.largest, options.slope) = (0.0, 0.0, 0.0);
+        (options.grid_values, options.grid_size) = (values.as_ptr(), [1, 2, 1]);
+        read_and_free(made(|out| azulejo_volume_adaptive_sample(context.get(), mesh, &options, out, null_mut())));
+
         let mut options = defaults(azulejo_volume_relax_options_init);
         options.max_iterations = 2;
         let mut report = defaults(azulejo_volume_relax_report_init);

@@ -33,7 +33,7 @@ pub use sample::sample;
 
 // Classes whose radii vary are filled by the same parts (`psp/classes/graded.rs`).
 pub(crate) use density::DensityField;
-pub(crate) use field::{Quota, RadiusBounds, RadiusField};
+pub(crate) use field::{FirstError, Quota, RadiusBounds, RadiusField, of_function};
 pub(crate) use ground::GradedGround;
 pub(crate) use pieces::{MeasuredTriangles, checked_samples};
 pub(crate) use sample::checked_count;

@@ -1,0 +1,113 @@
+//! A set of a domain where radii vary, filled octave by octave and block by block.
+
+use std::sync::{Mutex, PoisonError};
+
+use crate::error::Result;
+use crate::job::Job;
+use crate::plane::{Lattice, Rect};
+use crate::rng::{Draw, Rng};
+use crate::simd::{self, Level};
+use crate::volume::adaptive::blocks::Blocks;
+use crate::volume::adaptive::field::RadiusField;
+use crate::volume::adaptive::fill::Fill;
+use crate::volume::adaptive::grid::{Ball, GradedGrid, LONGEST_UNIT};
+use crate::volume::fill::Pass;
+use crate::volume::inside::Solid;
+use crate::volume::shape::Whole;
+
+/// The domain of a set, and its radii.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    pub lattice: &'a Lattice<3>,
+    pub field: &'a RadiusField<'a>,
+    /// The solid in it, if not all of it is filled.
+    pub solid: Option<Solid<'a>>,
+}
+
+/// The samples of a domain, by blocks.
+struct Set<'a> {
+    ground: Ground<'a>,
+    blocks: &'a Blocks,
+    samples: Vec<Vec<Ball>>,
+    /// Grids that no thread uses now: their memory is used again.
+    grids: Mutex<Vec<GradedGrid>>,
+    level: Level,
+}
+
+/// A maximal set, block after block.
+pub fn maximal(job: &Job, ground: Ground, blocks: &Blocks, level: Level) -> Result<Vec<Ball>> {
+    let samples = vec![Vec::new(); blocks.blocks.len()];
+    let mut set = Set { ground, blocks, samples, grids: Mutex::default(), level };
+    // In each octave the first pass goes over all blocks: they have rivals at their faces, which leave fewer traces then.
+    let (all, mut done) = ((Pass::ALL.len() * blocks.blocks.len()) as f64, 0);
+    for octave in &blocks.octaves {
+        for &pass in Pass::ALL {
+            for wave in octave {
+                let part = job.part(done as f64 / all, (done + wave.len()) as f64 / all);
+                let added = part.map(wave.len(), |index| set.fill(wave[index], pass))?;
+                done += wave.len();
+                for (&block, added) in wave.iter().zip(added) {
+                    set.samples[block as usize].extend(added?);
+                }
+            }
+        }
+    }
+    Ok(set.samples.into_iter().flatten().collect())
+}
+
+impl Set<'_> {
+    /// The new samples of one pass over a block, which depend only on its place and on the samples around it.
+    fn fill(&self, number: u32, pass: Pass) -> Result<Vec<Ball>> {
+        let Ground { lattice, field, solid } = self.ground;
+        let (block, field) = (&self.blocks.blocks[number as usize], &field.apart());
+        let (region, around) = match pass {
+            Pass::First => (block.region, block.around),
+            Pass::Last => (block.rect, block.bounds),
+        };
+        // Voxels at a surface are as small as the least radius requires.
+        let unit = match solid {
+            Some(_) => around[0],
+            None => (0.5 * (around[0] + around[1])).min(LONGEST_UNIT * around[0]),
+        };
+        let mut grid = self.grids.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        let fill = Fill {
+            shape: Whole,
+            grid: &mut grid,
+            field,
+            pass,
+            block: block.rect,
+            most: block.bounds[1],
+            region,
+            around,
+            unit,
+            standing: &self.standing(number, &region, around[1] + field.slack(around[1])),
+            images: &block.images,
+            rng: Rng::at(block.key, Draw::Volume, &[pass as u64]),
+        };
+        let added = match solid {
+            None => simd::run(self.level, fill),
+            Some(solid) => {
+                let lattice = &lattice.with_radius(unit * lattice.unit());
+                simd::run(self.level, fill.of_shape(solid.within(lattice, region)))
+            }
+        };
+        self.grids.lock().unwrap_or_else(PoisonError::into_inner).push(grid);
+        field.check()?;
+        Ok(added)
+    }
+
+    /// The samples of a block and of its neighbours, with all images, that may cover a place of a region whose radii are at most
+    /// this.
+    fn standing(&self, number: u32, region: &Rect<3>, most: f64) -> Vec<Ball> {
+        let block = &self.blocks.blocks[number as usize];
+        let mut standing = self.samples[number as usize].clone();
+        for &(other, image) in &block.neighbours {
+            let moved =
+                |ball: &Ball| Ball { centre: std::array::from_fn(|axis| ball.centre[axis] + image[axis]), ..*ball };
+            let images = self.samples[other as usize].iter().map(moved);
+            // A dart is rounded to a lattice point of the region.
+            standing.extend(images.filter(|ball| ball.touches(region, most)));
+        }
+        standing
+    }
+}
