@@ -32,8 +32,10 @@ build_threads() {
         export=__stack_pointer export=__wasm_init_tls export=__tls_size export=__tls_align; do
         flags+=" -C link-arg=--$argument"
     done
+    # The compiler warns of each crate that its target is not a stable one.
     RUSTC_BOOTSTRAP=1 RUSTFLAGS=$flags cargo build --quiet --locked --profile $profile --target wasm32-unknown-unknown \
-        -Z build-std=std,panic_abort --target-dir target/threads --workspace
+        -Z build-std=std,panic_abort --target-dir target/threads --workspace 2>target/threads.log ||
+        { cat target/threads.log >&2; return 1; }
 }
 
 rustup target list --installed | grep -qx wasm32-unknown-unknown || rustup target add wasm32-unknown-unknown
