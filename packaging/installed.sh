@@ -56,7 +56,11 @@ npm_package() {
     sample node "$work/clean/dragon.mjs"
 }
 
-command_line() { "$work/clean/bin/azulejo" surface "$1" --radius "$2" --seed "$3" --output "$4.raw" --force && mv "$4.raw" "$4"; }
+# The positions are the first columns of a table, whose decimals are those of the floats.
+command_line() {
+    "$work/clean/bin/azulejo" surface "$1" --radius "$2" --seed "$3" --output "$work/samples.csv"
+    perl -F, -ane 'print pack "f<3", @F if $. > 1' "$work/samples.csv" >"$4"
+}
 
 # The registry has no crate of this version yet: they come from each other.
 crates() {
