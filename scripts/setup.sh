@@ -66,16 +66,21 @@ install_missing() {
     output=$(apt "${sudo[@]}" 2>&1) || die "apt-get could not install ${missing[*]}: $(tail -n 20 <<<"$output")"
 }
 
-# Where there is a nightly compiler, what sanitizers and Miri need of it; tests that lack it say so and are skipped.
-add_nightly_components() {
-    local component
+# Adds a component to a compiler, if it can be had.
+add_component() {
+    rustup component list --toolchain "$1" --installed 2>/dev/null | grep -qE "^$2(-|$)" && return
+    echo "setup.sh: adding $2 to the compiler $1" >&2
+    rustup component add --toolchain "$1" "$2" >/dev/null 2>&1 || echo "setup.sh: it cannot be had" >&2
+}
+
+# The sources of the standard library, which bindings/js/build.sh compiles for threads on WebAssembly; where there is a nightly
+# compiler, what sanitizers and Miri need of it. Tests that lack some of it say so and are skipped.
+add_components() {
+    command -v rustup >/dev/null || return 0
+    add_component "$(rustup show active-toolchain | cut -d ' ' -f 1)" rust-src
     rustc +nightly --version >/dev/null 2>&1 || return 0
-    for component in rust-src miri; do
-        if ! rustup component list --toolchain nightly 2>/dev/null | grep -q "^$component.*(installed)"; then
-            echo "setup.sh: adding $component to the nightly compiler" >&2
-            rustup component add --toolchain nightly "$component" >/dev/null 2>&1 || echo "setup.sh: it cannot be had" >&2
-        fi
-    done
+    add_component nightly rust-src
+    add_component nightly miri
 }
 
 case "${1:-}" in
@@ -88,4 +93,4 @@ esac
 command -v apt-get >/dev/null || die "no apt-get here: install Embree (4, or 3.13), libclang, a C++ compiler and CMake"
 check_rust
 install_missing "${packages[@]}"
-case "${1:-}" in --all | --long) add_nightly_components ;; esac
+case "${1:-}" in --all | --long) add_components ;; esac

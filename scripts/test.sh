@@ -156,7 +156,7 @@ all_stages() {
     stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
     stage "Python: a wheel, installed and tested in a clean environment" bindings/python/test.sh $(if_long)
     stage "Packages of crates, recipes for vcpkg, conan and conda, workflows" packaging/test.sh $(if_long)
-    stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh
+    stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh $(if_long)
     stage "Blender extension: its manifest, and that its files compile" integrations/blender/test.sh --brief
     stage "Scenes in USD and glTF, by the validators of these formats" integrations/formats/test.sh
     stage "Site: links, programs of the playground, pages in headless Chromium" site/test.sh

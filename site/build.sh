@@ -2,8 +2,8 @@
 # Builds the site into target/site: guides, benchmarks, interfaces and the playground, all of it static and local. What
 # scripts/docs.sh has built is taken along. Look at it with `node site/serve.js target/site 8000`: modules need a server.
 #
-#   site/build.sh             also builds bindings/js/azulejo.wasm
-#   site/build.sh --built     takes the one that is there
+#   site/build.sh             also builds the modules of bindings/js
+#   site/build.sh --built     takes those that are there
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -22,4 +22,4 @@ mkdir -p target/site
 node site/build.js target/site
 cp -r site/playground target/site/
 mkdir target/site/playground/azulejo
-cp bindings/js/index.js bindings/js/azulejo.wasm target/site/playground/azulejo/
+cp bindings/js/{index,pool,thread}.js bindings/js/*.wasm target/site/playground/azulejo/

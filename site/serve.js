@@ -10,6 +10,9 @@ const TYPES = {
     ".svg": "image/svg+xml", ".woff2": "font/woff2",
 };
 
+// Pages are isolated, so that the playground has threads.
+const ISOLATED = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
+
 // Serves a folder to this machine; resolves to the server and its address.
 export function serve(folder, port = 0) {
     const server = createServer(async (request, response) => {
@@ -17,7 +20,7 @@ export function serve(folder, port = 0) {
         const info = await stat(path).catch(() => null);
         const file = info?.isDirectory() ? join(path, "index.html") : path;
         if (!info || !(await stat(file).catch(() => null))?.isFile()) return response.writeHead(404).end();
-        response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
+        response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", ...ISOLATED });
         createReadStream(file).pipe(response);
     });
     return new Promise((resolve) => {

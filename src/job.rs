@@ -4,12 +4,14 @@
 //! tasks. That is what makes every result independent of the number of threads.
 
 use std::any::Any;
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::io;
 use std::mem::ManuallyDrop;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread;
 use std::time::Duration;
 
 use rayon::prelude::*;
@@ -50,11 +52,29 @@ impl Context {
     /// # Errors
     /// [`Error::InvalidArgument`] above 4096 threads, [`Error::Threads`] if they cannot be started.
     pub fn new(num_threads: usize) -> Result<Self> {
+        let mut started = 0;
+        Self::with_threads(num_threads, |run| {
+            let builder = thread::Builder::new().name(format!("azulejo-{started}"));
+            started += 1;
+            builder.spawn(run).map(drop)
+        })
+    }
+
+    /// [`Context::new`], but `spawn` starts the threads: it is called once for each, on this thread, with what the new thread
+    /// has to run, which returns after the context was dropped. For programs whose threads need other properties than the
+    /// standard library gives them, or where it starts none, as on WebAssembly. Calls wait until the threads have come.
+    ///
+    /// # Errors
+    /// As those of [`Context::new`]; [`Error::Threads`] if `spawn` fails.
+    pub fn with_threads(
+        num_threads: usize,
+        mut spawn: impl FnMut(Box<dyn FnOnce() + Send>) -> io::Result<()>,
+    ) -> Result<Self> {
         if num_threads > 4096 {
             return Err(Error::invalid("num_threads", format!("{num_threads} is above 4096")));
         }
         let threads = match num_threads {
-            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            0 => thread::available_parallelism().map_or(1, usize::from),
             n => n,
         };
         let (process, kept) = (process_id(), Kept::default());
@@ -63,7 +83,7 @@ impl Context {
         }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
-            .thread_name(|i| format!("azulejo-{i}"))
+            .spawn_handler(|thread| spawn(Box::new(move || thread.run())))
             .build()
             .map_err(|error| Error::Threads { threads, reason: error.to_string() })?;
         if memory::has_address_limit() {
@@ -230,13 +250,11 @@ impl<'a> Job<'a> {
         share: &dyn Fn(usize) -> f64,
         task: &(dyn Fn(usize) + Sync),
     ) -> Result<()> {
-        let (finished, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
-        // Dropping the sender, at the end or by a panic, is what ends the calling thread's watch.
-        let (running, watch) = mpsc::channel::<()>();
+        let (finished, cancelled, end) = (AtomicUsize::new(0), AtomicBool::new(false), End::default());
         let mut verdict = Ok(());
         pool.in_place_scope(|scope| {
             scope.spawn(|_| {
-                let _running = running;
+                let _running = Running(&end);
                 (0..count).into_par_iter().for_each(|i| {
                     if !cancelled.load(Ordering::Relaxed) {
                         task(i);
@@ -244,7 +262,7 @@ impl<'a> Job<'a> {
                     }
                 });
             });
-            while let Err(RecvTimeoutError::Timeout) = watch.recv_timeout(REPORT_INTERVAL) {
+            while !end.is_reached_soon() {
                 if verdict.is_ok() {
                     verdict = self.report(share(finished.load(Ordering::Relaxed)));
                     cancelled.store(verdict.is_err(), Ordering::Relaxed);
@@ -263,11 +281,12 @@ impl<'a> Job<'a> {
         task: impl Fn(usize) -> T + Sync,
         mut visit: impl FnMut(T) -> Result<()>,
     ) -> Result<()> {
-        let mut visited = 0;
+        let visited = Cell::new(0);
+        let report = || self.report(visited.get() as f64 / count as f64);
         let mut visit = |result| {
             visit(result)?;
-            visited += 1;
-            self.report(visited as f64 / count as f64)
+            visited.set(visited.get() + 1);
+            report()
         };
         let Some(pool) = self.pool_for(count) else {
             return (0..count).try_for_each(|i| visit(task(i)));
@@ -277,10 +296,17 @@ impl<'a> Job<'a> {
         // One round more than there are batches: the first has nothing to visit yet, the last nothing to make.
         for start in (0..count + size).step_by(size) {
             let batch = start..(start + size).min(count);
-            let waiting = std::mem::take(&mut ready);
+            let (waiting, end) = (std::mem::take(&mut ready), End::default());
             pool.in_place_scope(|scope| {
-                scope.spawn(|_| ready = batch.into_par_iter().map(&task).collect());
-                waiting.into_iter().try_for_each(&mut visit)
+                scope.spawn(|_| {
+                    let _running = Running(&end);
+                    ready = batch.into_par_iter().map(&task).collect();
+                });
+                waiting.into_iter().try_for_each(&mut visit)?;
+                while !end.is_reached_soon() {
+                    report()?;
+                }
+                Ok(())
             })?;
         }
         Ok(())
@@ -347,6 +373,32 @@ impl<'a> Job<'a> {
     }
 }
 
+/// The end of tasks on the pool, by their return or by a panic, for which the calling thread waits. A condition variable knows
+/// it without a clock, which a channel with a timeout asks for and WebAssembly has not.
+#[derive(Default)]
+struct End {
+    is_reached: Mutex<bool>,
+    changed: Condvar,
+}
+
+impl End {
+    /// True if the end is reached. Waits for it, but no longer than about the interval of progress.
+    pub fn is_reached_soon(&self) -> bool {
+        let is_reached = self.is_reached.lock().unwrap_or_else(PoisonError::into_inner);
+        *is_reached || *self.changed.wait_timeout(is_reached, REPORT_INTERVAL).unwrap_or_else(PoisonError::into_inner).0
+    }
+}
+
+/// What the tasks hold until they end.
+struct Running<'a>(&'a End);
+
+impl Drop for Running<'_> {
+    fn drop(&mut self) {
+        *self.0.is_reached.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        self.0.changed.notify_one();
+    }
+}
+
 /// The vector that the parts become, while they are made.
 struct Placing<'a, T>(Mutex<State<'a, T>>);
 
@@ -406,8 +458,8 @@ impl<'a, T> State<'a, T> {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::{Cell, RefCell};
-    use std::thread::{self, ThreadId};
+    use std::cell::RefCell;
+    use std::thread::ThreadId;
 
     use super::*;
 
@@ -557,6 +609,24 @@ mod tests {
             let call = || context.run(progress, |job| job.map(10, |i| assert_ne!(i, 5)));
             assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(call)).is_err());
         }
+    }
+
+    #[test]
+    fn the_threads_are_those_of_the_caller() {
+        let expected = squares(&Context::new(1).unwrap(), None).unwrap();
+        let mut waiting = Vec::new();
+        let context = Context::with_threads(3, |run| {
+            waiting.push(run);
+            Ok(())
+        });
+        let threads: Vec<_> = waiting.into_iter().map(thread::spawn).collect();
+        assert_eq!(threads.len(), 3);
+        assert_eq!(squares(context.as_ref().unwrap(), Some(&|_| ControlFlow::Continue(()))).unwrap(), expected);
+        drop(context);
+        threads.into_iter().for_each(|thread| thread.join().unwrap());
+        let refused = Context::with_threads(2, |_| Err(io::Error::other("on purpose")));
+        assert!(matches!(refused, Err(Error::Threads { threads: 2, reason }) if reason.contains("on purpose")));
+        assert_eq!(Context::with_threads(1, |_| unreachable!()).unwrap().num_threads(), 1);
     }
 
     #[test]

@@ -37,7 +37,7 @@ fn check(file: &str, expected: &str, sums: Result<List>) {
 
 #[test]
 fn what_calls_return_has_the_sums_of_the_file() {
-    check("tests/sums.txt", include_str!("sums.txt"), sums(0));
+    check("tests/sums.txt", include_str!("sums.txt"), sums(&Context::new(0).unwrap()));
 }
 
 #[test]

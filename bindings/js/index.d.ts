@@ -3,7 +3,7 @@
  * analysis.
  *
  * A radius is the smallest distance between two samples, centre to centre. Positions are packed: x y or x y z of each
- * sample. The same options and seed give the same bytes, everywhere. Calls run to their end on the calling thread; use
+ * sample. The same options and seed give the same bytes, everywhere. Calls run to their end before they return; use
  * a worker for long ones. Refusals are thrown as an Error whose message begins with the name of the argument.
  */
 
@@ -13,11 +13,30 @@ export type Numbers = ArrayLike<number>;
 /** A whole number from 0 to 2^64 - 1; above 2^53 - 1 a bigint. */
 export type Seed = number | bigint;
 
-/**
- * Loads the module; must be awaited before all other calls. `source`: the module's bytes, the compiled module, a Response
- * or an address; by default `azulejo.wasm` beside the script.
- */
-export function init(source?: URL | string | BufferSource | WebAssembly.Module | Response): Promise<void>;
+/** A module: its bytes, the compiled module, a Response or an address. */
+export type Source = URL | string | BufferSource | WebAssembly.Module | Response;
+
+export interface InitOptions {
+    /**
+     * The threads that calls run on: 0, one for each processor, to 256; default 1. Results do not depend on it. More than one
+     * need memory that threads share, which browsers give to pages that are isolated (`crossOriginIsolated`); elsewhere calls
+     * run on one. The main thread of a page may not wait for others, and is refused more than one.
+     */
+    threads?: number;
+    /** The module of one thread; default `azulejo.wasm` beside the script. */
+    source?: Source | null;
+    /** The module of several threads; default `azulejo-threads.wasm` beside the script. */
+    threadedSource?: Source | null;
+}
+
+/** Loads the module, once; must be awaited before all other calls. A `Source` is that of the options. */
+export function init(options?: InitOptions | Source): Promise<void>;
+
+/** The number of threads that calls run on: 1, or that of `init` where threads can share memory. */
+export let threads: number;
+
+/** Ends the threads and forgets the module, all meshes, planes and sets in its memory included; `init` loads it anew. */
+export function close(): Promise<void>;
 
 /**
  * Called with the fraction of a call that is done, from 0 to 1, after each piece of its work. If it returns false, the call throws

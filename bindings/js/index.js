@@ -1,8 +1,14 @@
-// azulejo for JavaScript: blue-noise sampling of planes, triangle meshes and boxes, relaxation, analysis, in WebAssembly on
-// one thread. index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that
-// what a call returns is an ordinary typed array of the caller's.
+// azulejo for JavaScript: blue-noise sampling of planes, triangle meshes and boxes, relaxation, analysis, in WebAssembly.
+// index.d.ts documents all calls. Arrays are copied into the memory of the module and results out of it, so that what a call
+// returns is an ordinary typed array of the caller's, never on memory that threads share.
 
 let wasm;
+
+// The threads of the module, or null if it is the one without.
+let pool = null;
+
+/** The number of threads that calls run on. */
+export let threads = 1;
 
 // The call that runs: its callbacks, and what one of them threw.
 let running = null;
@@ -20,11 +26,29 @@ function ask(callback, argument) {
 
 const IMPORTS = {
     azulejo: {
-        progress: (done) => ask(running.progress, () => done),
-        visit: (pointer, count) =>
-            ask(running.visit, () => new Float32Array(wasm.memory.buffer, pointer, 2 * count).slice()),
+        progress: (done) => {
+            mustHaveThreads();
+            return ask(running.progress, () => done);
+        },
+        visit: (pointer, count) => ask(running.visit, () => view(Float32Array, pointer, 2 * count).slice()),
     },
 };
+
+// A thread that has ended, without memory, leaves its work undone, for which the call would wait.
+function mustHaveThreads() {
+    if (!pool?.hasEnded()) return;
+    pool.close();
+    throw new WebAssembly.RuntimeError("a thread has ended, as when memory is used up: close() the module and init() it anew");
+}
+
+// Numbers in the module's memory. Pointers are signed, as WebAssembly's integers are in JavaScript. Where a thread has let
+// shared memory grow, this one learns its length by letting it grow by nothing.
+function view(Type, pointer, length) {
+    const { memory } = wasm;
+    const start = pointer >>> 0;
+    if (start + length * Type.BYTES_PER_ELEMENT > memory.buffer.byteLength) memory.grow(0);
+    return new Type(memory.buffer, start, length);
+}
 
 /** What a call throws that a callback has ended. */
 export class Cancelled extends Error {
@@ -34,9 +58,9 @@ export class Cancelled extends Error {
     }
 }
 
-/** Loads the module, once. `source`: its bytes, a compiled module, a Response or an address; by default azulejo.wasm. */
-export async function init(source = new URL("azulejo.wasm", import.meta.url)) {
-    if (wasm) return;
+// The module of its bytes, a Response or an address.
+async function compiled(source) {
+    if (source instanceof WebAssembly.Module) return source;
     if (source instanceof URL && source.protocol === "file:") {
         source = await (await import("node:fs/promises")).readFile(source);
     } else if (source instanceof URL || typeof source === "string") {
@@ -46,8 +70,53 @@ export async function init(source = new URL("azulejo.wasm", import.meta.url)) {
         if (!source.ok) throw new Error(`source: ${source.url} answers ${source.status}`);
         source = await source.arrayBuffer();
     }
-    const made = await WebAssembly.instantiate(source, IMPORTS);
-    wasm = (made.instance ?? made).exports;
+    return WebAssembly.compile(source);
+}
+
+// A pool of threads, or null where there can be none, or one would do.
+async function threaded(wanted, source) {
+    if (wanted === 1) return null;
+    const { mayWait, processors, sharedMemory, startPool } = await import("./pool.js");
+    const memory = sharedMemory();
+    const count = wanted === 0 ? Math.min(await processors(), MOST_THREADS) : wanted;
+    if (memory === null || count === 1) return null;
+    if (!mayWait()) throw new Error("threads: the main thread of a page may not wait for others: make calls in a worker");
+    const module = await compiled(source ?? new URL("azulejo-threads.wasm", import.meta.url));
+    return { count, ...(await startPool(module, memory, count, IMPORTS)) };
+}
+
+const MOST_THREADS = 256;
+const INIT = { threads: 1, source: null, threadedSource: null };
+
+async function load(given) {
+    const isOptions = given !== null && Object.getPrototypeOf(given) === Object.prototype;
+    const options = withDefaults(INIT, isOptions ? given : { source: given });
+    pool = await threaded(whole("threads", options.threads, MOST_THREADS + 1), options.threadedSource);
+    if (pool) {
+        [wasm, threads] = [pool.wasm, pool.count];
+        return;
+    }
+    const module = await compiled(options.source ?? new URL("azulejo.wasm", import.meta.url));
+    wasm = (await WebAssembly.instantiate(module, IMPORTS)).exports;
+}
+
+// The loading of the module, which happens once.
+let loading = null;
+
+export function init(options = {}) {
+    loading ??= load(options).catch((error) => {
+        loading = null;
+        throw error;
+    });
+    return loading;
+}
+
+export async function close() {
+    mustNotRun("close");
+    await loading;
+    const ended = pool;
+    [wasm, pool, loading, threads] = [undefined, null, null, 1];
+    await ended?.close();
 }
 
 const BOUNDED = { periodic: 0, bounded: 1 };
@@ -179,7 +248,7 @@ class Call {
             throw new RangeError(`${argument}: ${array.length} numbers are no rows of ${width}`);
         }
         const pointer = this.#take(argument, array.length * Type.BYTES_PER_ELEMENT);
-        new Type(wasm.memory.buffer, pointer, array.length).set(array);
+        view(Type, pointer, array.length).set(array);
         return [pointer, array.length / width];
     }
 
@@ -214,9 +283,9 @@ class Call {
 }
 
 function answer(index, Type) {
-    const bytes = wasm.azulejo_answer_bytes(index);
+    const bytes = wasm.azulejo_answer_bytes(index) >>> 0;
     if (bytes === 0) return new Type(0);
-    return new Type(wasm.memory.buffer, wasm.azulejo_answer(index), bytes / Type.BYTES_PER_ELEMENT).slice();
+    return view(Type, wasm.azulejo_answer(index), bytes / Type.BYTES_PER_ELEMENT).slice();
 }
 
 // The library names arguments as C does.
@@ -234,13 +303,14 @@ function mustNotRun(what) {
 function calling(body, { progress = null, visit = null } = {}) {
     if (!wasm) throw new Error("init: the module is not loaded; await init() first");
     mustNotRun("call");
+    mustHaveThreads();
     const call = new Call();
     running = { progress, visit, thrown: null };
     try {
         return body(call);
     } finally {
         running = null;
-        call.free();
+        if (!pool?.hasEnded()) call.free();
     }
 }
 
@@ -357,17 +427,23 @@ class Handle {
     #pointer;
     #kind;
     #name;
-    static #registry = new FinalizationRegistry(([kind, pointer]) => wasm[`azulejo_${kind}_free`](pointer));
+    #module = wasm;
+    static #registry = new FinalizationRegistry(([module, kind, pointer]) => Handle.#freeIn(module, kind, pointer));
+
+    // What a module held that was closed is gone with it.
+    static #freeIn(module, kind, pointer) {
+        if (module === wasm) module[`azulejo_${kind}_free`](pointer);
+    }
 
     constructor(kind, pointer, name = kind) {
         this.#pointer = pointer;
         this.#kind = kind;
         this.#name = name;
-        Handle.#registry.register(this, [kind, pointer], this);
+        Handle.#registry.register(this, [this.#module, kind, pointer], this);
     }
 
     get pointer() {
-        if (this.#pointer === 0) throw new Error(`${this.#name}: was freed`);
+        if (this.#pointer === 0 || this.#module !== wasm) throw new Error(`${this.#name}: was freed`);
         return this.#pointer;
     }
 
@@ -375,7 +451,7 @@ class Handle {
         if (this.#pointer === 0) return;
         mustNotRun(this.#name);
         Handle.#registry.unregister(this);
-        wasm[`azulejo_${this.#kind}_free`](this.#pointer);
+        Handle.#freeIn(this.#module, this.#kind, this.#pointer);
         this.#pointer = 0;
     }
 }
@@ -386,7 +462,7 @@ function created(name, args, options, ...types) {
     return calling((call) => {
         const out = call.handle();
         const arrays = call.make(name, [...args(call), out], ...types);
-        return [new Uint32Array(wasm.memory.buffer, out, 1)[0], ...arrays];
+        return [view(Uint32Array, out, 1)[0], ...arrays];
     }, options);
 }
 

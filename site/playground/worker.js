@@ -3,7 +3,8 @@
 import * as azulejo from "./azulejo/index.js";
 import { bestCandidate, bridson, countConflicts, jittered, wrapped } from "./naive.js";
 
-const ready = azulejo.init(new URL("azulejo/azulejo.wasm", import.meta.url));
+// On all processors where the page is isolated, else on one.
+const ready = azulejo.init({ threads: 0 });
 
 // The result of a call, and its milliseconds.
 function timed(body) {

@@ -16,14 +16,14 @@ use azulejo::{Context, Result};
 
 use list::List;
 
-/// The sums of all calls, on a number of threads (0: all processors).
-pub fn sums(threads: usize) -> Result<List> {
-    let (context, mut list) = (Context::new(threads)?, List::default());
-    let sets = plane::sums(&context, &mut list)?;
-    relaxation::sums(&context, &sets, &mut list)?;
-    let surface = surface::sums(&context, &mut list)?;
-    analysis::sums(&context, &sets, &surface, &mut list)?;
-    grids(&context, false, &mut list)?;
+/// The sums of all calls.
+pub fn sums(context: &Context) -> Result<List> {
+    let mut list = List::default();
+    let sets = plane::sums(context, &mut list)?;
+    relaxation::sums(context, &sets, &mut list)?;
+    let surface = surface::sums(context, &mut list)?;
+    analysis::sums(context, &sets, &surface, &mut list)?;
+    grids(context, false, &mut list)?;
     Ok(list)
 }
 

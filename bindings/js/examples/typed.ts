@@ -1,10 +1,13 @@
 // Checked by `tsc --noEmit`: the types of a whole program.
 import {
-    Cancelled, Differences, KdrtPlane, Mesh, Plane, Psp, Spectrum, dcrRelax, dcrRemesh, init, kdrtSample, kdrtStream, planeMeasure,
-    pspClassesWithDensity, pspSample, spectrum, volumeSample, type SurfaceSamples,
+    Cancelled, Differences, KdrtPlane, Mesh, Plane, Psp, Spectrum, close, dcrRelax, dcrRemesh, init, kdrtSample, kdrtStream,
+    planeMeasure, pspClassesWithDensity, pspSample, spectrum, threads, volumeSample, type SurfaceSamples,
 } from "azulejo";
 
-await init();
+await init(new URL("azulejo.wasm", import.meta.url));
+await close();
+await init({ threads: 4 });
+const many: number = threads;
 const set = kdrtSample({ radius: 0.01, boundary: "bounded", seed: 7n });
 const relaxed: Float32Array = dcrRelax(set.positions, { boundary: "bounded" }).positions;
 const low: number = spectrum(relaxed, { size: 128 }).annuli[1].power;

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use azulejo::{Context, Error, Progress, Result};
 
+use crate::threads::context;
 use crate::watch::progress;
 
 thread_local! {
@@ -64,11 +65,11 @@ impl Answer {
     }
 }
 
-/// Makes a call on one thread, which JavaScript watches, and keeps its answer, or the text of its error. Returns 1 if it
-/// succeeded, 2 if JavaScript cancelled it, else 0.
+/// Makes a call on the threads of the module, which JavaScript watches, and keeps its answer, or the text of its error.
+/// Returns 1 if it succeeded, 2 if JavaScript cancelled it, else 0.
 pub(crate) fn call(body: impl FnOnce(&Context, Option<&Progress>) -> Result<Answer>) -> i32 {
     ANSWER.set(Answer::default());
-    let answer = Context::new(1).and_then(|context| body(&context, Some(&progress)));
+    let answer = context().and_then(|context| body(&context, Some(&progress)));
     let outcome = match &answer {
         Ok(_) => 1,
         Err(Error::Cancelled) => 2,

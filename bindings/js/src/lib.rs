@@ -1,4 +1,4 @@
-//! azulejo for JavaScript: the functions that `index.js` calls, on one thread.
+//! azulejo for JavaScript: the functions that `index.js` calls, one call at a time.
 //!
 //! Arguments are numbers, and arrays in memory that [`memory::azulejo_take`] allocated. Every call returns whether it
 //! succeeded; its results, or the text of its error, are read from the arrays of its [`answer`].
@@ -19,6 +19,7 @@ mod stream;
 mod surface;
 mod surface_varying;
 mod thin;
+mod threads;
 mod volume;
 mod volume_varying;
 mod watch;

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
-import { covering, hasSum, smallest, wrapped } from "./oracles.js";
+import { covering, hasSum, ready, smallest, wrapped } from "./oracles.js";
 
-before(() => azulejo.init());
+before(ready);
 
 const near = (found, wanted, within = 1e-6) =>
     assert.ok(Math.abs(found - wanted) <= within, `${found}, but ${wanted} by the oracle`);

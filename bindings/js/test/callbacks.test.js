@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
-import { hasSum, torus } from "./oracles.js";
+import { hasSum, ready, torus } from "./oracles.js";
 
-before(() => azulejo.init());
+before(ready);
 
 test("streams have the samples of the set in its order, part by part", () => {
     const options = { radius: 0.0045, domainMin: [1000, -3], domainMax: [1004, -1], seed: 12 };

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
-import { apart, hasSum, interpolated, smallest, sumsTorus, torus } from "./oracles.js";
+import { apart, hasSum, interpolated, ready, smallest, sumsTorus, torus } from "./oracles.js";
 
-before(() => azulejo.init());
+before(ready);
 
 // The triangles of a mesh as three corners of three numbers each.
 function cornersOf(mesh) {

@@ -3,9 +3,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { before, test } from "node:test";
 import * as azulejo from "../index.js";
-import { apart, covering, hasSum, interpolated, smallest, sumsTorus, torus, wrapped } from "./oracles.js";
+import { apart, covering, hasSum, interpolated, ready, smallest, sumsTorus, torus, wrapped } from "./oracles.js";
 
-before(() => azulejo.init());
+before(ready);
 
 test("sets of the plane are conflict-free, maximal and the same each time", () => {
     for (const [boundary, wrap] of [["periodic", wrapped], ["bounded", (d) => d]]) {

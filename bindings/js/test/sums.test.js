@@ -1,14 +1,33 @@
-// The sums of tests/sums.txt on WebAssembly: the same bytes as on every processor.
+// The sums of tests/sums.txt on WebAssembly: the same bytes as on every processor, on any number of threads.
 import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
+import { sharedMemory, startPool } from "../pool.js";
+
+const here = (path) => new URL(path, import.meta.url);
+const compiled = async (path) => WebAssembly.compile(await readFile(here(path)));
+const THREADED = "../target/sums-threads.wasm";
+const skip = !existsSync(here(THREADED));
+
+async function check({ memory, sums_text, sums_bytes }) {
+    const place = sums_text();
+    const found = new TextDecoder().decode(new Uint8Array(memory.buffer, place, sums_bytes()).slice());
+    const expected = String(await readFile(here("../../../tests/sums.txt")));
+    assert.deepEqual(found.split("\n"), expected.split("\n"));
+}
 
 test("what calls return has the sums of the file", async () => {
-    const here = (path) => readFile(new URL(path, import.meta.url));
-    const { instance } = await WebAssembly.instantiate(await here("../target/sums.wasm"), {});
-    const { memory, sums_text, sums_bytes } = instance.exports;
-    const place = sums_text();
-    const found = new TextDecoder().decode(new Uint8Array(memory.buffer, place, sums_bytes()));
-    const expected = String(await here("../../../tests/sums.txt"));
-    assert.deepEqual(found.split("\n"), expected.split("\n"));
+    await check((await WebAssembly.instantiate(await compiled("../target/sums.wasm"))).exports);
 });
+
+for (const threads of [2, 4]) {
+    test(`what calls return on ${threads} threads has the sums of the file`, { skip }, async () => {
+        const pool = await startPool(await compiled(THREADED), sharedMemory(), threads, {});
+        try {
+            await check(pool.wasm);
+        } finally {
+            await pool.close();
+        }
+    });
+}

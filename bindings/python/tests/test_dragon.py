@@ -1,6 +1,8 @@
 """The Stanford dragon, which test.sh fetches: the file that AZULEJO_DRAGON names."""
 
+import hashlib
 import os
+import pathlib
 
 import numpy as np
 import pytest
@@ -24,6 +26,14 @@ def test_the_dragon_is_sampled():
     assert farthest(random_places(mesh, 2000), points.positions) <= radius * (1 + 1e-5)
     # That of the plane, as far as the surface is flat over a radius.
     assert len(points) == pytest.approx(MAXIMAL_DENSITY * mesh.area / radius**2, rel=0.03)
+
+
+@pytest.mark.skipif(not FILE, reason="AZULEJO_DRAGON names no file")
+def test_its_samples_are_those_that_every_package_must_give():
+    """packaging/installed.sh holds the packages that are published against this sum."""
+    expected = (pathlib.Path(__file__).parents[3] / "packaging/installed/sum.txt").read_text().strip()
+    positions = azulejo.psp_sample(azulejo.Mesh.load(FILE), 0.002, seed=4).positions
+    assert hashlib.sha256(positions.tobytes()).hexdigest() == expected
 
 
 def test_missing_samples_and_a_close_one_would_be_noticed():

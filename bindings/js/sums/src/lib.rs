@@ -4,11 +4,14 @@ use std::sync::OnceLock;
 
 #[path = "../../../../tests/sums/all.rs"]
 mod all;
+#[path = "../../src/threads.rs"]
+mod threads;
 
 /// The lines, or the text of an error; made once.
 fn text() -> &'static str {
     static TEXT: OnceLock<String> = OnceLock::new();
-    TEXT.get_or_init(|| all::sums(1).map_or_else(|error| error.to_string(), |list| list.to_string()))
+    let sums = || all::sums(&*threads::context()?);
+    TEXT.get_or_init(|| sums().map_or_else(|error| error.to_string(), |list| list.to_string()))
 }
 
 /// The address of the text.
