@@ -631,7 +631,7 @@ const VOLUME: &[Call] = &[
         run: |c, p| samples(volume::adaptive::sample(c, &volume::adaptive::Options::new(WIDENING).domain(CUBE), p)),
         refused: &[
             ("radius_function: ", |c, p| {
-                let radius = Varying::Function { at: &|_| 1e-6, smallest: 1e-6, largest: 0.1, slope: 0.0 };
+                let radius = Varying::Function { at: &|_| 1e-5, smallest: 1e-5, largest: 1e-4, slope: 0.0 };
                 said(volume::adaptive::sample(c, &volume::adaptive::Options::new(radius).domain(CUBE), p))
             }),
             ("smallest: ", |c, p| {
@@ -986,7 +986,7 @@ fn probes_without_end_take_no_memory_and_can_be_cancelled() {
 }
 
 /// Functions with a progress callback that other files of the crate share.
-const INTERNAL: &[&str] = &["dcr::run", "dcr::relax_set", "dcr::surface::found_corners"];
+const INTERNAL: &[&str] = &["dcr::run", "dcr::relax_set", "dcr::surface::found_corners", "volume::adaptive::complete"];
 
 /// The public functions of a source with a progress callback: folder, type and name.
 fn long_calls(folder: &str, source: &str) -> Vec<String> {
