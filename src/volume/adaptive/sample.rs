@@ -28,11 +28,11 @@ use crate::volume::{InsideOptions as Uniform, Report};
 /// about 1. The same samples for every number of threads.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for bad `smallest`, `largest` and `slope`, for `grid_values` that are not positive and finite and a
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for bad `smallest`, `largest` and `slope`, for `grid_values` that are not positive and finite and a
 /// `grid_size` that is not theirs, for radii below 64 float spacings at the domain's largest coordinate, and for a function that returns a value outside
 /// `smallest..=largest`, changes faster than `slope` or between calls (`radius_function`): the latter as far as it is noticed.
-/// [`Error::TooLarge`] if the radii require more than 2^32 samples or more than memory holds (`radius_function`), and if they
-/// change so fast that it takes too many tests to find out what is covered (`slope`, `grid_values`). [`Error::Cancelled`].
+/// [`Error::TooLarge`](crate::Error::TooLarge) if the radii require more than 2^32 samples or more than memory holds (`radius_function`), and if they
+/// change so fast that it takes too many tests to find out what is covered (`slope`, `grid_values`). [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>) -> Result<(Points<3>, Report)> {
     let (stopwatch, &Options { radius, domain, seed }) = (Stopwatch::start(), options);
     let (points, bounds) = complete(context, &domain, radius, None, seed, progress)?;
@@ -47,7 +47,7 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
 /// [tolerances](InsideOptions::tolerance) of its radius and four float spacings.
 ///
 /// # Errors
-/// Those of [`sample`], and [`Error::InvalidArgument`] for a `mesh` that is not closed or encloses nothing, and for a
+/// Those of [`sample`], and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a `mesh` that is not closed or encloses nothing, and for a
 /// `tolerance` out of range.
 pub fn sample_inside(
     context: &Context,
