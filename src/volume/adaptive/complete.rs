@@ -56,7 +56,7 @@ pub fn complete(
     })?;
     let mut points = Points::from(samples.iter().map(|ball| lattice.position(ball.centre)).collect::<Vec<_>>());
     points.radii = samples.iter().map(|ball| ball.radius * lattice.unit()).collect();
-    let radius = points.radii.iter().copied().fold(f64::INFINITY, f64::min);
     let covering_radius = field.bounds[1] * lattice.unit();
+    let radius = points.radii.iter().copied().fold(covering_radius, f64::min);
     Ok((points, [radius, covering_radius]))
 }
