@@ -42,6 +42,7 @@
  *   a mesh whose vertices are the samples         azulejo_dcr_remesh
  *   samples of a cuboid                           azulejo_volume_sample
  *   samples inside a mesh                         azulejo_volume_sample_inside
+ *   a volume whose radius varies                  azulejo_volume_adaptive_sample
  *   which points are inside a mesh                azulejo_mesh_contains
  *   proof: distances, gaps, spectra               azulejo_plane_measure, azulejo_space_measure,
  *                                                 azulejo_mesh_coverage, azulejo_spectrum_create

@@ -184,8 +184,8 @@ const uint32_t *azulejo_points_triangles(const azulejo_points *points);
 /// the same manner.
 const float *azulejo_points_barycentrics(const azulejo_points *points);
 
-/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
-/// and the local radius of each of azulejo_psp_classes_with_density.
+/// The radius of each sample of the calls that have `adaptive` in their names, and the local radius
+/// of each of azulejo_psp_classes_with_density.
 const double *azulejo_points_radii(const azulejo_points *points);
 
 /// The ranks of the samples of a set in progressive order: for each sample the distance to the

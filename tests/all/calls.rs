@@ -907,7 +907,7 @@ fn probes_without_end_take_no_memory_and_can_be_cancelled() {
 }
 
 /// Functions with a progress callback that other files of the crate share.
-const INTERNAL: &[&str] = &["dcr::run", "dcr::relax_set", "dcr::surface::found_corners"];
+const INTERNAL: &[&str] = &["dcr::run", "dcr::relax_set", "dcr::surface::found_corners", "volume::adaptive::complete"];
 
 /// The public functions of a source with a progress callback: folder, type and name.
 fn long_calls(folder: &str, source: &str) -> Vec<String> {

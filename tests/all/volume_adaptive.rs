@@ -239,7 +239,7 @@ fn the_inside_of_a_mesh_is_covered() {
     let octahedron = Arc::new(Mesh::new(corners.to_vec(), faces.collect()).unwrap());
     let of_octahedron = |p: [f64; 3]| (1.0 - p.iter().map(|x| x.abs()).sum::<f64>()) / 3f64.sqrt();
     let of_cube = |p: [f64; 3]| p.iter().map(|&x| x.min(1.0 - x)).fold(1.0, f64::min);
-    let depths: [(Arc<Mesh>, &dyn Fn([f64; 3]) -> f64); 2] = [(octahedron, &of_octahedron), (cube(), &of_cube)];
+    let depths: [(Arc<Mesh>, At); 2] = [(octahedron, &of_octahedron), (cube(), &of_cube)];
     let at = |[x, y, _]: [f64; 3]| 0.05 + 0.2 * (x + 0.5 * y).abs().min(1.0);
     let stated = Stated { at: &at, bounds: [0.05, 0.25], slope: 0.224 };
     for (mesh, depth) in depths {

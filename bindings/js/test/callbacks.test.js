@@ -66,6 +66,7 @@ function watchable() {
         fill: (options) => grown().fill(options),
         volumeSample: (options) => azulejo.volumeSample({ radius: 0.1, ...options }),
         volumeSampleInside: (options) => azulejo.volumeSampleInside(mesh, { radius: 0.1, ...options }),
+        volumeAdaptiveSample: (options) => azulejo.volumeAdaptiveSample(options, [0.1, 0.2], [2, 1, 1]),
         contains: (options) => mesh.contains(space, options),
         maskCreate: (options) => azulejo.maskCreate({ width: 32, height: 32, ...options }),
         thin: (options) => azulejo.thin(plane, 2, { radius: 0.05, ...options }),

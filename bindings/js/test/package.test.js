@@ -463,6 +463,29 @@ test("sets inside meshes are conflict-free, maximal below the surface, and of cl
     assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, thickness: NaN }), /thickness: /);
 });
 
+test("sets of boxes and solids with radii on a grid keep the mean of two radii", () => {
+    const corners = Float32Array.from({ length: 24 }, (_, i) => (Math.floor(i / 3) >> i % 3) & 1);
+    const faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    const mesh = new azulejo.Mesh(corners, Uint32Array.from(faces.flatMap(([a, b, c, d]) => [a, b, c, a, c, d])));
+    const values = [0.1, 0.2, 0.15, 0.1];
+    for (const of of [null, mesh]) {
+        const options = of === null ? { boundary: "bounded", seed: 2 } : { tolerance: 0.1, seed: 2 };
+        const { positions, radii, radius, coveringRadius } = azulejo.volumeAdaptiveSample(options, values, [2, 1, 2], of);
+        assert.ok(radii.length > 200 && positions.length === 3 * radii.length);
+        assert.ok(Math.min(...radii) === radius && Math.abs(coveringRadius - 0.2) < 1e-7);
+        for (let i = 0; i < radii.length; i++) {
+            for (let j = 0; j < i; j++) {
+                const d = Math.hypot(...[0, 1, 2].map((k) => positions[3 * i + k] - positions[3 * j + k]));
+                assert.ok(d >= 0.5 * (radii[i] + radii[j]) * (1 - 1e-12));
+            }
+        }
+    }
+    assert.throws(() => azulejo.volumeAdaptiveSample({}, values, [2, 2, 2]), /gridSize: /);
+    assert.throws(() => azulejo.volumeAdaptiveSample({}, [0.1, -1], [2, 1, 1]), /gridValues: /);
+    assert.throws(() => azulejo.volumeAdaptiveSample({ tolerance: 0.1 }, values, [2, 1, 2]), /tolerance: /);
+    assert.throws(() => azulejo.volumeAdaptiveSample({ boundary: "bounded" }, values, [2, 1, 2], mesh), /boundary: /);
+});
+
 test("sets of boxes are conflict-free, maximal, exact in number and nested in progressive order", () => {
     const unit = [[0, 0, 0], [1, 1, 1]];
     const torus = azulejo.volumeSample({ radius: 0.15, seed: 3 });

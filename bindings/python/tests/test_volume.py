@@ -251,3 +251,30 @@ def test_wrong_points_of_a_relaxation_are_named():
     for wrong, argument in [({"positions": [[0.5, 0.5, 1.5]]}, "positions"), ({"tolerance": -1.0}, "tolerance")]:
         with pytest.raises(ValueError, match=f"^{argument}"):
             azulejo.volume_relax(**{"positions": [[0.5] * 3], "boundary": "bounded", **wrong})
+
+
+@pytest.mark.parametrize("boundary", ["periodic", "bounded"])
+def test_radii_on_a_grid_are_kept_and_covered(boundary):
+    values = np.array([[[0.1, 0.2]], [[0.15, 0.1]]], np.float32)
+    points = azulejo.volume_adaptive_sample(values, boundary=boundary, seed=3)
+    same = azulejo.volume_adaptive_sample(values, boundary=boundary, seed=3, threads=1)
+    assert (points.positions == same.positions).all() and (points.radii == same.radii).all()
+
+    def radius(at):
+        x, z = at[:, 0].astype(float), at[:, 2].astype(float)
+        low, high = (v[0, 0] + x * (float(v[0, 1]) - v[0, 0]) for v in values.astype(float))
+        return low + z * (high - low)
+
+    def between(a, b):
+        d = np.abs(a[:, None].astype(float) - b[None].astype(float))
+        d = np.minimum(d, 1 - d) if boundary == "periodic" else d
+        return np.sqrt((d**2).sum(axis=2))
+
+    assert np.allclose(radius(points.positions), points.radii, rtol=1e-9) and len(points) > 200
+    means = 0.5 * (points.radii[:, None] + points.radii[None])
+    apart = between(points.positions, points.positions) - means + 9 * np.eye(len(points))
+    assert apart.min() >= -1e-12
+    probes = np.random.default_rng(5).random((5000, 3))
+    excess = between(probes, points.positions) - 0.5 * (radius(probes)[:, None] + points.radii[None])
+    assert excess.min(axis=1).max() <= 1e-6
+    assert points.report.radius == points.radii.min() and abs(points.report.covering_radius - 0.2) < 1e-7

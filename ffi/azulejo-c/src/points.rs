@@ -124,8 +124,8 @@ pub unsafe extern "C" fn azulejo_points_barycentrics(points: *const azulejo_poin
     unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.barycentrics))
 }
 
-/// The radius of each sample of azulejo_psp_adaptive_sample and azulejo_psp_adaptive_with_density,
-/// and the local radius of each of azulejo_psp_classes_with_density.
+/// The radius of each sample of the calls that have `adaptive` in their names, and the local radius
+/// of each of azulejo_psp_classes_with_density.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_radii(points: *const azulejo_points) -> *const f64 {
     // SAFETY: handed on from the caller.

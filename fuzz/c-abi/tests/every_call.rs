@@ -33,6 +33,7 @@ use azulejo_c::status::*;
 use azulejo_c::thin::*;
 use azulejo_c::version::{azulejo_has_embree, azulejo_version};
 use azulejo_c::volume::*;
+use azulejo_c::volume_adaptive::*;
 use azulejo_c::volume_relax::*;
 
 /// A handle, which its own function frees when it is dropped.

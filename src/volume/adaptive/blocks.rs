@@ -6,6 +6,7 @@
 
 use crate::error::Result;
 use crate::job::Job;
+use crate::math::cbrt;
 use crate::plane::{Lattice, Rect};
 use crate::points::{Boundary, MAXIMAL_DENSITY_IN_SPACE};
 use crate::rng::{Draw, Rng, hash};
@@ -78,6 +79,12 @@ impl Blocks {
         }
         let octaves = octaves(&blocks);
         Ok(Self { blocks, octaves, expected })
+    }
+
+    /// The radius of a set of one radius that has as many samples, in the units of the domain.
+    pub fn mean_radius(&self, lattice: &Lattice<3>) -> f64 {
+        let volume: f64 = lattice.size.iter().map(|&size| f64::from(size) * lattice.unit()).product();
+        cbrt(MAXIMAL_DENSITY_IN_SPACE * volume / self.expected)
     }
 }
 

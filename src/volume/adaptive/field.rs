@@ -157,7 +157,7 @@ impl<'a> RadiusField<'a> {
         radius
     }
 
-    /// How far a radius can lie outside of bounds by rounding.
+    /// The distance by which rounding can take a radius out of its bounds.
     pub fn slack(&self, radius: f64) -> f64 {
         ROUNDING * radius + BEYOND * self.slope
     }

@@ -19,9 +19,11 @@
 //! (docs/design/volume.md).
 
 mod blocks;
+mod complete;
 mod field;
 mod fill;
 mod grid;
+mod ground;
 mod options;
 mod sample;
 mod set;

@@ -4,25 +4,14 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::error::Result;
 use crate::job::Job;
-use crate::plane::{Lattice, Rect};
+use crate::plane::Rect;
 use crate::rng::{Draw, Rng};
-use crate::simd::{self, Level};
+use crate::simd::Level;
 use crate::volume::adaptive::blocks::Blocks;
-use crate::volume::adaptive::field::RadiusField;
 use crate::volume::adaptive::fill::Fill;
-use crate::volume::adaptive::grid::{Ball, GradedGrid, LONGEST_UNIT};
+use crate::volume::adaptive::grid::{Ball, GradedGrid};
+use crate::volume::adaptive::ground::Ground;
 use crate::volume::fill::Pass;
-use crate::volume::inside::Solid;
-use crate::volume::shape::Whole;
-
-/// The domain of a set, and its radii.
-#[derive(Clone, Copy)]
-pub struct Ground<'a> {
-    pub lattice: &'a Lattice<3>,
-    pub field: &'a RadiusField<'a>,
-    /// The solid in it, if not all of it is filled.
-    pub solid: Option<Solid<'a>>,
-}
 
 /// The samples of a domain, by blocks.
 struct Set<'a> {
@@ -35,9 +24,9 @@ struct Set<'a> {
 }
 
 /// A maximal set, block after block.
-pub fn maximal(job: &Job, ground: Ground, blocks: &Blocks, level: Level) -> Result<Vec<Ball>> {
+pub fn maximal(job: &Job, ground: Ground, blocks: &Blocks) -> Result<Vec<Ball>> {
     let samples = vec![Vec::new(); blocks.blocks.len()];
-    let mut set = Set { ground, blocks, samples, grids: Mutex::default(), level };
+    let mut set = Set { ground, blocks, samples, grids: Mutex::default(), level: Level::widest() };
     // In each octave the first pass goes over all blocks: they have rivals at their faces, which leave fewer traces then.
     let (all, mut done) = ((Pass::ALL.len() * blocks.blocks.len()) as f64, 0);
     for octave in &blocks.octaves {
@@ -58,20 +47,14 @@ pub fn maximal(job: &Job, ground: Ground, blocks: &Blocks, level: Level) -> Resu
 impl Set<'_> {
     /// The new samples of one pass over a block, which depend only on its place and on the samples around it.
     fn fill(&self, number: u32, pass: Pass) -> Result<Vec<Ball>> {
-        let Ground { lattice, field, solid } = self.ground;
-        let (block, field) = (&self.blocks.blocks[number as usize], &field.apart());
+        let (block, field) = (&self.blocks.blocks[number as usize], &self.ground.field.apart());
         let (region, around) = match pass {
             Pass::First => (block.region, block.around),
             Pass::Last => (block.rect, block.bounds),
         };
-        // Voxels at a surface are as small as the least radius requires.
-        let unit = match solid {
-            Some(_) => around[0],
-            None => (0.5 * (around[0] + around[1])).min(LONGEST_UNIT * around[0]),
-        };
         let mut grid = self.grids.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
         let fill = Fill {
-            shape: Whole,
+            shape: (),
             grid: &mut grid,
             field,
             pass,
@@ -79,18 +62,12 @@ impl Set<'_> {
             most: block.bounds[1],
             region,
             around,
-            unit,
+            unit: self.ground.unit(around),
             standing: &self.standing(number, &region, around[1] + field.slack(around[1])),
             images: &block.images,
             rng: Rng::at(block.key, Draw::Volume, &[pass as u64]),
         };
-        let added = match solid {
-            None => simd::run(self.level, fill),
-            Some(solid) => {
-                let lattice = &lattice.with_radius(unit * lattice.unit());
-                simd::run(self.level, fill.of_shape(solid.within(lattice, region)))
-            }
-        };
+        let added = self.ground.run(self.level, fill);
         self.grids.lock().unwrap_or_else(PoisonError::into_inner).push(grid);
         field.check()?;
         Ok(added)

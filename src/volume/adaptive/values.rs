@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::math::hypot;
 use crate::points::Domain;
 
-/// What rounding can add to the slope between two positions.
+/// The share that rounding can add to the slope between two positions.
 const ROUNDING: f64 = 1e-9;
 
 /// Values on a grid over a domain, linear along each axis.

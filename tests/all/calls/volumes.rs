@@ -46,7 +46,7 @@ pub const VOLUME: &[Call] = &[
         run: |c, p| samples(volume::adaptive::sample(c, &volume::adaptive::Options::new(WIDENING).domain(CUBE), p)),
         refused: &[
             ("radius_function: ", |c, p| {
-                let radius = Varying::Function { at: &|_| 1e-6, smallest: 1e-6, largest: 0.1, slope: 0.0 };
+                let radius = Varying::Function { at: &|_| 1e-5, smallest: 1e-5, largest: 1e-4, slope: 0.0 };
                 said(volume::adaptive::sample(c, &volume::adaptive::Options::new(radius).domain(CUBE), p))
             }),
             ("smallest: ", |c, p| {
