@@ -42,7 +42,7 @@ function mustHaveThreads() {
 }
 
 // Numbers in the module's memory. Pointers are signed, as WebAssembly's integers are in JavaScript. Where a thread has let
-// shared memory grow, this one learns its length by letting it grow by nothing.
+// shared memory grow, this one may not know its length yet: growing it by nothing tells.
 function view(Type, pointer, length) {
     const { memory } = wasm;
     const start = pointer >>> 0;
