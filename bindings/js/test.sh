@@ -2,13 +2,16 @@
 # The package for npm: built, tested in Node, also on threads, and in headless Chromium; its types, and what is packed.
 #
 #   bindings/js/test.sh           its module with threads is hardly optimised
-#   bindings/js/test.sh --long    as it is published
+#   bindings/js/test.sh --long    as it is published; sums also on four threads
 set -euo pipefail
 cd "$(dirname "$0")"
 
 case ${1:-} in
     "") ./build.sh --brief ;;
-    --long) ./build.sh ;;
+    --long)
+        ./build.sh
+        export AZULEJO_LONG=1
+        ;;
     *)
         sed -n '/^#   /s/^# *//p' "$0" >&2
         exit 2
