@@ -80,8 +80,7 @@ azulejo_status azulejo_volume_sample(const azulejo_context *context,
                                      azulejo_volume_report *report);
 
 /// Makes samples of several classes in a cuboid, as azulejo_classes says, up to 7 float spacings.
-/// They are sorted by class; classes of equal radii get about equal shares. O(samples). Options:
-/// the domain, its boundary, the seed, given samples and progress.
+/// They are sorted by class. O(samples). Options: domain, boundary, seed, given samples, progress.
 azulejo_status azulejo_volume_sample_classes(const azulejo_context *context,
                                              const azulejo_volume_options *options,
                                              const azulejo_classes *classes,
@@ -199,8 +198,8 @@ azulejo_status azulejo_volume_adaptive_options_init(azulejo_volume_adaptive_opti
 /// the radius of the place, and the change of the radius over it. A grid lies over the cuboid or
 /// the box around the mesh, its first and last radii on the faces, linear along each axis. A
 /// function is called some 60 times a sample; its slope need not hold across the seam of a torus.
-/// - report: the least radius of a sample, and the largest that there can be.
-/// - O(samples) time and memory for slopes below about 1.
+/// The report has the least radius of a sample, and the largest that there can be. O(samples) time
+/// and memory for slopes below about 1.
 azulejo_status azulejo_volume_adaptive_sample(const azulejo_context *context,
                                               const azulejo_mesh *mesh,
                                               const azulejo_volume_adaptive_options *options,

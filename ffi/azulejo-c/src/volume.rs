@@ -207,8 +207,7 @@ pub unsafe extern "C" fn azulejo_volume_sample(
 }
 
 /// Makes samples of several classes in a cuboid, as azulejo_classes says, up to 7 float spacings.
-/// They are sorted by class; classes of equal radii get about equal shares. O(samples). Options:
-/// the domain, its boundary, the seed, given samples and progress.
+/// They are sorted by class. O(samples). Options: domain, boundary, seed, given samples, progress.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_sample_classes(
     context: *const azulejo_context,

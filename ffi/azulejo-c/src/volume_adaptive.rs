@@ -86,10 +86,8 @@ pub unsafe extern "C" fn azulejo_volume_adaptive_options_init(
 /// the radius of the place, and the change of the radius over it. A grid lies over the cuboid or
 /// the box around the mesh, its first and last radii on the faces, linear along each axis. A
 /// function is called some 60 times a sample; its slope need not hold across the seam of a torus.
-///
-/// report: the least radius of a sample, and the largest that there can be.
-///
-/// O(samples) time and memory for slopes below about 1.
+/// The report has the least radius of a sample, and the largest that there can be. O(samples) time
+/// and memory for slopes below about 1.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_adaptive_sample(
     context: *const azulejo_context,
