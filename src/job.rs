@@ -389,7 +389,7 @@ impl End {
     }
 }
 
-/// What the tasks hold until they end.
+/// Held by the tasks until they end.
 struct Running<'a>(&'a End);
 
 impl Drop for Running<'_> {

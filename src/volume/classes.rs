@@ -7,14 +7,13 @@
 //! Classes of *equal* own radius take turns, since the one that is filled first would have more: each is filled at ever smaller
 //! radii (`levels.rs`), where few samples are in another's way, and each level begins with another class.
 
-use crate::check::finest_radius;
 use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::given::Given;
 use crate::job::{Context, Job, Progress};
 use crate::levels::LevelOptions;
 use crate::plane::{GivenDisks, Lattice, float_spacing};
-use crate::points::{Boundary, Domain, Points};
+use crate::points::{Boundary, Domain, Points, finest_radius};
 use crate::rng::{Draw, hash};
 use crate::setters::setters;
 use crate::volume::set::{Sample, Set};
@@ -113,7 +112,7 @@ fn bytes(classes: &Classes, expected: &[f64]) -> f64 {
     (0..classes.count()).map(of_class).fold(BYTES_PER_MADE * all, f64::max)
 }
 
-/// What classes are filled in.
+/// The ground of all classes.
 struct Ground<'a> {
     domain: Domain<3>,
     /// Of any radius.
@@ -143,7 +142,7 @@ impl Ground<'_> {
         Ok(samples)
     }
 
-    /// What fills the domain at a level of a class.
+    /// The samples that fill the domain at a level of a class.
     fn added(&self, job: &Job, class: usize, scale: f64, level: usize, samples: &[Vec<Sample>]) -> Result<Vec<Sample>> {
         let lattice = self.lattice.with_radius(scale * self.classes.own(class));
         let (positions, clearances) = self.others(class, samples);

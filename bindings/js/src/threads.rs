@@ -12,7 +12,7 @@ use azulejo::{Context, Result};
 /// The context of all calls, of a module with threads.
 static POOL: OnceLock<Context> = OnceLock::new();
 
-/// What the threads run that have not come yet.
+/// The work of the threads that have not come yet.
 static WAITING: Mutex<Vec<Box<dyn FnOnce() + Send>>> = Mutex::new(Vec::new());
 
 /// The context of a call.
@@ -57,7 +57,7 @@ pub extern "C" fn azulejo_thread_memory(bytes: usize, alignment: usize) -> *mut 
     }
 }
 
-/// What a thread of the pool runs. It does not return: the pool is never dropped, and threads end with their workers.
+/// The work of a thread of the pool. It does not return: the pool is never dropped, and threads end with their workers.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_thread_run() {
     let run = WAITING.lock().unwrap_or_else(PoisonError::into_inner).pop();
