@@ -72,7 +72,7 @@ has_debug_file() {
     local library debug
     library=$(readlink -f "$(find "$prefix" -name libazulejo.so)") debug=$(dirname "$library")/.debug/$(basename "$library").debug
     fails has_section .symtab "$library" && fails has_section .debug_info "$library" && has_section .symtab "$debug" &&
-        { [ $quick = yes ] || { [ "$(stat -c %s "$library")" -lt 8500000 ] && has_section .debug_info "$debug"; }; } &&
+        { [ $quick = yes ] || { [ "$(stat -c %s "$library")" -lt 9000000 ] && has_section .debug_info "$debug"; }; } &&
         [ "$(build_id "$library")" = "$(build_id "$debug")" ] &&
         readelf --debug-dump=links --debug-dump=follow-links "$library" >"$work/links" 2>&1 && head -n 20 "$work/links" &&
         grep -qF "Found separate debug info file: $(dirname "$debug")" "$work/links"
