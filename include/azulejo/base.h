@@ -404,6 +404,11 @@ void azulejo_mesh_origin(const azulejo_mesh *mesh, double *origin);
 /// Frees the mesh; its memory is released once no psp handle uses it any more.
 void azulejo_mesh_free(azulejo_mesh *mesh);
 
+/// Gives the radius at a position, from `smallest` to `largest`. See "Callbacks" in azulejo.h.
+/// - user: the radius_function_user of the options.
+/// - position: x y z of a place; for a sample, the floats that are returned.
+typedef double (*azulejo_radius_fn)(void *user, const double *position);
+
 /// A geometry of triangles in a scene that the program has made with Embree, which does not report
 /// the sizes of its buffers.
 typedef struct azulejo_embree_geometry {

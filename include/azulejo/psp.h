@@ -298,11 +298,6 @@ azulejo_status azulejo_psp_sample_region(const azulejo_context *context,
                                          azulejo_points **out,
                                          azulejo_psp_report *report);
 
-/// Gives the radius at a position, from `smallest` to `largest`. See "Callbacks" in azulejo.h.
-/// - user: the radius_function_user of the options.
-/// - position: x y z of a place on the mesh; for a sample, the floats that are returned.
-typedef double (*azulejo_radius_fn)(void *user, const double *position);
-
 /// Options of azulejo_psp_adaptive_sample, which requires either `vertex_radii` or
 /// `radius_function`, and of azulejo_psp_adaptive_with_density.
 typedef struct azulejo_psp_adaptive_options {

@@ -12,19 +12,12 @@ use crate::given::given;
 use crate::growing::{self, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
-use crate::of_position::OfPosition;
+use crate::of_position::{OfPosition, azulejo_radius_fn};
 use crate::order::{AZULEJO_ORDER_ANY, order};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
-
-/// Gives the radius at a position, from `smallest` to `largest`. See "Callbacks" in azulejo.h.
-///
-/// user: the radius_function_user of the options.
-///
-/// position: x y z of a place on the mesh; for a sample, the floats that are returned.
-pub type azulejo_radius_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
 /// Options of azulejo_psp_adaptive_sample, which requires either `vertex_radii` or
 /// `radius_function`, and of azulejo_psp_adaptive_with_density.

@@ -2,6 +2,13 @@
 
 use std::ffi::c_void;
 
+/// Gives the radius at a position, from `smallest` to `largest`. See "Callbacks" in azulejo.h.
+///
+/// user: the radius_function_user of the options.
+///
+/// position: x y z of a place; for a sample, the floats that are returned.
+pub type azulejo_radius_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
+
 /// The caller's function of `N` coordinates and its user pointer, as the core calls it.
 pub(crate) struct OfPosition<const N: usize> {
     function: unsafe extern "C-unwind" fn(*mut c_void, *const f64) -> f64,

@@ -4,14 +4,13 @@ use std::ffi::c_void;
 
 use azulejo_core::volume::adaptive::{self, InsideOptions, Options, Radius};
 
-use crate::adaptive::azulejo_radius_fn;
 use crate::boundary::{Out, check_unused, rows};
 use crate::context::azulejo_context;
 use crate::domain::{AZULEJO_BOUNDARY_PERIODIC, domain};
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
-use crate::of_position::OfPosition;
+use crate::of_position::{OfPosition, azulejo_radius_fn};
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::{Failure, azulejo_status};
