@@ -51,14 +51,14 @@ impl Page {
 
 /// Grids that no thread uses now: their memory is used again.
 #[derive(Default)]
-pub struct Grids(Mutex<Vec<Grid>>);
+pub struct Grids<G>(Mutex<Vec<G>>);
 
-impl Grids {
-    pub fn take(&self) -> Grid {
+impl<G: Default> Grids<G> {
+    pub fn take(&self) -> G {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
     }
 
-    pub fn give(&self, grid: Grid) {
+    pub fn give(&self, grid: G) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(grid);
     }
 }
@@ -467,14 +467,19 @@ impl Grid {
         Rect { min: std::array::from_fn(|axis| from(axis, 0)), max: std::array::from_fn(|axis| from(axis, 1)) }
     }
 
-    /// The balls that can cover a lattice point of a cell.
-    pub fn balls_near(&self, cell: u16) -> Vec<Centre> {
+    /// A box with all lattice points of a cell.
+    pub fn points_of_cell(&self, cell: u16) -> Rect<3> {
         let place = self.places[cell as usize];
         let low = |axis: usize| (f64::from(place[axis]) * self.sides[axis]) as i32;
-        let points = Rect {
+        Rect {
             min: std::array::from_fn(low),
             max: std::array::from_fn(|axis| low(axis) + self.sides[axis].ceil() as i32 + 2),
-        };
+        }
+    }
+
+    /// The balls that can cover a lattice point of a cell.
+    pub fn balls_near(&self, cell: u16) -> Vec<Centre> {
+        let points = self.points_of_cell(cell);
         self.balls.iter().copied().filter(|&ball| touches(&points, ball, self.separation.threshold)).collect()
     }
 

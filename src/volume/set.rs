@@ -7,7 +7,7 @@ use crate::plane::Rect;
 use crate::simd::Level;
 use crate::volume::blocks::{Blocks, REACH};
 use crate::volume::fill::{Fill, Pass};
-use crate::volume::grid::Grids;
+use crate::volume::grid::{Grid, Grids};
 use crate::volume::ranks;
 use crate::volume::search::Centre;
 use crate::volume::space::Space;
@@ -39,7 +39,7 @@ pub struct Set<'a> {
     /// The largest rank, and the ranks of the samples that were added to each block, if they get any.
     largest_rank: Option<f64>,
     ranks: Vec<Vec<f32>>,
-    grids: Grids,
+    grids: Grids<Grid>,
     level: Level,
     tiled: Option<Tiled<'a>>,
 }

@@ -73,7 +73,7 @@ const BYTES_PER_TRIANGLE: f64 = 200.0;
 /// pushed by them twice as far as by each other.
 ///
 /// Made for sets of [`volume::sample_inside`](crate::volume::sample_inside), in which the samples of the surface, if they come
-/// first, are the ones to be fixed. Points that are clustered are not redistributed, and get no farther than the steps lead. A
+/// first, are the ones to be fixed or to slide. Points that are clustered are not redistributed, and get no farther than the steps lead. A
 /// single point and an empty set are returned unchanged. Coincident points are first moved by 0.001 to 0.002 spacings.
 ///
 /// The unit of length of the forces is that of as many points, fixed ones included, in the volume of the inside and a layer of 0.1
@@ -85,8 +85,8 @@ const BYTES_PER_TRIANGLE: f64 = 200.0;
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for options out of their range, for a `mesh` that is not closed, for a `fixed` or `sliding` of another
-/// length than the points, for a point that is both, and for `positions` that are not finite, outside, or sliding off the surface (with the index); [`Error::TooLarge`] for more than 2^32 - 1
-/// points or the available memory.
+/// length than the points, for a point that is both, and for `positions` that are not finite, outside, or sliding off the surface
+/// (with the index); [`Error::TooLarge`] for more than 2^32 - 1 points or the available memory.
 pub fn relax_inside(
     context: &Context,
     mesh: &Mesh,

@@ -315,12 +315,7 @@ impl GradedGrid {
 
     /// The balls that can cover a lattice point of a cell, relative to the region.
     pub fn balls_near(&self, field: &RadiusField, cell: u16) -> Vec<Ball> {
-        let (place, sides, [_, most]) = (self.cells.place(cell as usize), self.cells.sides(), self.bounds(cell));
-        let low = |axis: usize| (f64::from(place[axis]) * sides[axis]) as i32;
-        let points = Rect {
-            min: std::array::from_fn(low),
-            max: std::array::from_fn(|axis| low(axis) + sides[axis].ceil() as i32 + 2),
-        };
+        let (points, [_, most]) = (self.cells.points_of_cell(cell), self.bounds(cell));
         let most = most + field.slack(most);
         self.balls.iter().copied().filter(|ball| ball.touches(&points, most)).collect()
     }

@@ -1,7 +1,5 @@
 //! A set of a domain where radii vary, filled octave by octave and block by block.
 
-use std::sync::{Mutex, PoisonError};
-
 use crate::error::Result;
 use crate::job::Job;
 use crate::plane::Rect;
@@ -12,21 +10,21 @@ use crate::volume::adaptive::fill::Fill;
 use crate::volume::adaptive::grid::{Ball, GradedGrid};
 use crate::volume::adaptive::ground::Ground;
 use crate::volume::fill::Pass;
+use crate::volume::grid::Grids;
 
 /// The samples of a domain, by blocks.
 struct Set<'a> {
     ground: Ground<'a>,
     blocks: &'a Blocks,
     samples: Vec<Vec<Ball>>,
-    /// Grids that no thread uses now: their memory is used again.
-    grids: Mutex<Vec<GradedGrid>>,
+    grids: Grids<GradedGrid>,
     level: Level,
 }
 
 /// A maximal set, block after block.
 pub fn maximal(job: &Job, ground: Ground, blocks: &Blocks) -> Result<Vec<Ball>> {
     let samples = vec![Vec::new(); blocks.blocks.len()];
-    let mut set = Set { ground, blocks, samples, grids: Mutex::default(), level: Level::widest() };
+    let mut set = Set { ground, blocks, samples, grids: Grids::default(), level: Level::widest() };
     // In each octave the first pass goes over all blocks: they have rivals at their faces, which leave fewer traces then.
     let (all, mut done) = ((Pass::ALL.len() * blocks.blocks.len()) as f64, 0);
     for octave in &blocks.octaves {
@@ -52,7 +50,7 @@ impl Set<'_> {
             Pass::First => (block.region, block.around),
             Pass::Last => (block.rect, block.bounds),
         };
-        let mut grid = self.grids.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        let mut grid = self.grids.take();
         let fill = Fill {
             shape: (),
             grid: &mut grid,
@@ -68,7 +66,7 @@ impl Set<'_> {
             rng: Rng::at(block.key, Draw::Volume, &[pass as u64]),
         };
         let added = self.ground.run(self.level, fill);
-        self.grids.lock().unwrap_or_else(PoisonError::into_inner).push(grid);
+        self.grids.give(grid);
         field.check()?;
         Ok(added)
     }
