@@ -622,6 +622,125 @@ static azulejo_status thinned_plane(const azulejo_context *context, size_t count
     return thinned_to(context, count, 2, 0, radius_of(count / 4, 1), AZULEJO_ORDER_ANY);
 }
 
+/* The analysis of so many random points. */
+static azulejo_status measured_plane(const azulejo_context *context, size_t count, uint32_t boundary) {
+    azulejo_plane_set set;
+    azulejo_plane_report report;
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    ACCEPTED(azulejo_plane_report_init(&report, sizeof report));
+    set.positions = cloud;
+    set.count = count;
+    set.boundary = boundary;
+    return azulejo_plane_measure(context, &set, &report);
+}
+
+static azulejo_status measured(const azulejo_context *context, size_t count) {
+    return measured_plane(context, count, AZULEJO_BOUNDARY_PERIODIC);
+}
+
+static azulejo_status measured_bounded(const azulejo_context *context, size_t count) {
+    return measured_plane(context, count, AZULEJO_BOUNDARY_BOUNDED);
+}
+
+static azulejo_status gaps_of_plane(const azulejo_context *context, size_t count, double radius) {
+    azulejo_plane_set set;
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    set.positions = cloud;
+    set.count = count;
+    return azulejo_plane_coverage(context, &set, radius, &report);
+}
+
+static azulejo_status coverage_of_plane(const azulejo_context *context, size_t count) {
+    return gaps_of_plane(context, count, 1);
+}
+
+/* No point covers more than itself. */
+static azulejo_status all_gaps_of_plane(const azulejo_context *context, size_t count) {
+    return gaps_of_plane(context, count, 1e-6);
+}
+
+static azulejo_status pairs_of_plane(const azulejo_context *context, size_t count) {
+    double density[16];
+    azulejo_plane_set set;
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    set.positions = cloud;
+    set.count = count;
+    return azulejo_plane_radial_distribution(context, &set, 1, COUNT_OF(density), density);
+}
+
+static azulejo_space_set cloud_in_space(size_t count) {
+    azulejo_space_set set;
+    ACCEPTED(azulejo_space_set_init(&set, sizeof set));
+    set.positions = cloud;
+    set.count = count;
+    return set;
+}
+
+static azulejo_status measured_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(count);
+    azulejo_space_report report;
+    ACCEPTED(azulejo_space_report_init(&report, sizeof report));
+    return azulejo_space_measure(context, &set, 0, &report);
+}
+
+static azulejo_status coverage_of_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(count);
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_space_coverage(context, &set, 1, &report);
+}
+
+/* Of a few points that cover little, so that gaps have about so many places. */
+static azulejo_status gaps_of_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(8);
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_space_coverage(context, &set, 13 / cbrt((double)count), &report);
+}
+
+static azulejo_status distance_in_space(const azulejo_context *context, size_t count) {
+    double smallest;
+    return azulejo_space_smallest_distance(context, cloud, count, &smallest);
+}
+
+static azulejo_status coverage_of_mesh(const azulejo_context *context, size_t count) {
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_mesh_coverage(context, hilly, cloud, count, 1, &report);
+}
+
+static azulejo_status gaps_of_mesh(const azulejo_context *context, size_t count) {
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_mesh_coverage(context, cube, cloud, 8, 26 / sqrt((double)count), &report);
+}
+
+static azulejo_status uncovered_of_mesh(const azulejo_context *context, size_t count) {
+    double uncovered;
+    return azulejo_mesh_uncovered_fraction(context, hilly, cloud, count, 0.01, 1000, 0, &uncovered);
+}
+
+/* So many frequencies along each axis that they are as many as the points. */
+static azulejo_status spectrum_of_plane(const azulejo_context *context, size_t count) {
+    azulejo_spectrum *spectrum = NULL;
+    azulejo_plane_set set;
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    set.positions = cloud;
+    set.count = count;
+    const azulejo_status status = azulejo_spectrum_create(context, &set, (uint32_t)sqrt((double)count), 1, &spectrum);
+    azulejo_spectrum_free(spectrum);
+    return status;
+}
+
+static azulejo_status spectrum_of_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(count);
+    static azulejo_annulus annuli[256];
+    size_t found;
+    return azulejo_space_spectrum(context, &set, 1, 1, 0.05, annuli, COUNT_OF(annuli), sizeof *annuli, &found);
+}
+
 /* The most that a call asks for, over its peak, beside some MB for tables. More where arrays that double make peaks uneven,
    and where radii vary: how finely that cuts triangles is only known afterwards. */
 #define MOST_ASKED 1.3
@@ -706,6 +825,20 @@ static const struct {
     {"thin, 3-D, a tenth", thinned, 500000, MOST_ASKED},
     {"thin, 3-D, all in order", thinned_all, 500000, MOST_ASKED},
     {"thin, 2-D, radius", thinned_plane, 1000000, MOST_ASKED},
+    {"analysis, plane", measured, 125000, MOST_ASKED_UNEVENLY},
+    {"analysis, plane, bounded", measured_bounded, 125000, MOST_ASKED_UNEVENLY},
+    {"coverage, plane", coverage_of_plane, 250000, MOST_ASKED},
+    {"coverage, plane, all gaps", all_gaps_of_plane, 62500, MOST_ASKED_UNEVENLY},
+    {"pairs, plane", pairs_of_plane, 1000000, MOST_ASKED},
+    {"analysis, cuboid", measured_space, 250000, MOST_ASKED},
+    {"coverage, cuboid", coverage_of_space, 250000, MOST_ASKED},
+    {"coverage, cuboid, gaps", gaps_of_space, 250000, MOST_ASKED_UNEVENLY},
+    {"smallest distance, space", distance_in_space, 1000000, MOST_ASKED},
+    {"coverage, mesh", coverage_of_mesh, 250000, MOST_ASKED},
+    {"coverage, mesh, gaps", gaps_of_mesh, 250000, MOST_ASKED_UNEVENLY},
+    {"uncovered, mesh", uncovered_of_mesh, 1000000, MOST_ASKED},
+    {"spectrum, plane", spectrum_of_plane, 500000, MOST_ASKED},
+    {"spectrum, cuboid", spectrum_of_space, 125000, MOST_ASKED},
 };
 
 /* A hilly square of this many quads along a side. */
