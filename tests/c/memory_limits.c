@@ -623,32 +623,25 @@ static azulejo_status thinned_plane(const azulejo_context *context, size_t count
 }
 
 /* The analysis of so many random points. */
-static azulejo_status measured_plane(const azulejo_context *context, size_t count, uint32_t boundary) {
+static azulejo_plane_set cloud_in_plane(size_t count) {
     azulejo_plane_set set;
-    azulejo_plane_report report;
     ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
-    ACCEPTED(azulejo_plane_report_init(&report, sizeof report));
     set.positions = cloud;
     set.count = count;
-    set.boundary = boundary;
-    return azulejo_plane_measure(context, &set, &report);
+    return set;
 }
 
 static azulejo_status measured(const azulejo_context *context, size_t count) {
-    return measured_plane(context, count, AZULEJO_BOUNDARY_PERIODIC);
-}
-
-static azulejo_status measured_bounded(const azulejo_context *context, size_t count) {
-    return measured_plane(context, count, AZULEJO_BOUNDARY_BOUNDED);
+    const azulejo_plane_set set = cloud_in_plane(count);
+    azulejo_plane_report report;
+    ACCEPTED(azulejo_plane_report_init(&report, sizeof report));
+    return azulejo_plane_measure(context, &set, &report);
 }
 
 static azulejo_status gaps_of_plane(const azulejo_context *context, size_t count, double radius) {
-    azulejo_plane_set set;
+    const azulejo_plane_set set = cloud_in_plane(count);
     azulejo_coverage_report report;
-    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
     ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
-    set.positions = cloud;
-    set.count = count;
     return azulejo_plane_coverage(context, &set, radius, &report);
 }
 
@@ -662,11 +655,8 @@ static azulejo_status all_gaps_of_plane(const azulejo_context *context, size_t c
 }
 
 static azulejo_status pairs_of_plane(const azulejo_context *context, size_t count) {
+    const azulejo_plane_set set = cloud_in_plane(count);
     double density[16];
-    azulejo_plane_set set;
-    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
-    set.positions = cloud;
-    set.count = count;
     return azulejo_plane_radial_distribution(context, &set, 1, COUNT_OF(density), density);
 }
 
@@ -724,11 +714,8 @@ static azulejo_status uncovered_of_mesh(const azulejo_context *context, size_t c
 
 /* So many frequencies along each axis that they are as many as the points. */
 static azulejo_status spectrum_of_plane(const azulejo_context *context, size_t count) {
+    const azulejo_plane_set set = cloud_in_plane(count);
     azulejo_spectrum *spectrum = NULL;
-    azulejo_plane_set set;
-    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
-    set.positions = cloud;
-    set.count = count;
     const azulejo_status status = azulejo_spectrum_create(context, &set, (uint32_t)sqrt((double)count), 1, &spectrum);
     azulejo_spectrum_free(spectrum);
     return status;
@@ -826,7 +813,6 @@ static const struct {
     {"thin, 3-D, all in order", thinned_all, 500000, MOST_ASKED},
     {"thin, 2-D, radius", thinned_plane, 1000000, MOST_ASKED},
     {"analysis, plane", measured, 125000, MOST_ASKED_UNEVENLY},
-    {"analysis, plane, bounded", measured_bounded, 125000, MOST_ASKED_UNEVENLY},
     {"coverage, plane", coverage_of_plane, 250000, MOST_ASKED},
     {"coverage, plane, all gaps", all_gaps_of_plane, 62500, MOST_ASKED_UNEVENLY},
     {"pairs, plane", pairs_of_plane, 1000000, MOST_ASKED},
