@@ -14,14 +14,12 @@ pub(super) const LINK: f64 = 0.5;
 pub(super) const DEPTH: f64 = 1e-6;
 /// No more uncovered fragments than this are kept.
 const MAX_UNCOVERED: usize = 1 << 26;
-/// The most bytes that one takes, in its cell and its group.
-const BYTES_PER_PLACE: f64 = 110.0;
 /// The number of places, or cells of them, that are grouped between two reports.
 const PLACES: u32 = 2048;
 
-/// The most uncovered fragments that are kept, and that memory holds.
-pub(super) fn most_uncovered() -> usize {
-    memory::available().map_or(MAX_UNCOVERED, |bytes| MAX_UNCOVERED.min((bytes / BYTES_PER_PLACE) as usize))
+/// The most uncovered fragments that are kept, and that memory holds at so many bytes each, in its cell and its group.
+pub(super) fn most_uncovered(bytes: f64) -> usize {
+    memory::available().map_or(MAX_UNCOVERED, |available| MAX_UNCOVERED.min((available / bytes) as usize))
 }
 
 /// Refuses so many uncovered fragments.

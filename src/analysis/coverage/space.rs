@@ -13,6 +13,9 @@ use crate::psp::TOLERANCE;
 const TASK: usize = 512;
 const GATHERED: usize = 32;
 
+/// The most bytes per uncovered place.
+const BYTES_PER_PLACE: f64 = 110.0;
+
 /// Cells are cut until none that is uncovered reaches farther from its centre, in radii.
 const SMALLEST: f64 = 0.25 * LINK;
 
@@ -107,7 +110,7 @@ fn gather(job: &Job, nearest: &Nearest<3>, cells: &SearchCells<3>, radius: f64) 
         let uncovered = tasks.range(task).map(|cell| cells.get(cell)).filter(|cell| cell.is_uncovered(nearest, radius));
         uncovered.map(|cell| cell.least_parts(radius)).sum::<f64>()
     })?;
-    let most = most_uncovered();
+    let most = most_uncovered(BYTES_PER_PLACE);
     check_count(least.into_iter().sum::<f64>() as usize, most)?;
     let tasks = chunks_of(cells.len(), GATHERED);
     let mut uncovered = Vec::new();

@@ -22,6 +22,8 @@ const GATHERED: usize = 8;
 /// The most bytes per point, in the tree, and per triangle.
 const BYTES_PER_POINT: f64 = 26.0;
 const BYTES_PER_TRIANGLE: f64 = 106.0;
+/// The most bytes per uncovered place.
+const BYTES_PER_PLACE: f64 = 60.0;
 
 /// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
 /// farthest from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set, 0 where
@@ -107,7 +109,7 @@ fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) 
         let uncovered = fragments[tasks.range(task)].iter().filter(|fragment| fragment.is_uncovered(tree, radius));
         uncovered.map(|fragment| fragment.least_parts(radius)).sum::<f64>()
     })?;
-    let most = most_uncovered();
+    let most = most_uncovered(BYTES_PER_PLACE);
     check_count(least.into_iter().sum::<f64>() as usize, most)?;
     let tasks = chunks_of(fragments.len(), GATHERED);
     let mut uncovered = Vec::new();
