@@ -51,7 +51,7 @@ pub fn number_along(corner: usize, axis: usize) -> usize {
 }
 
 /// The distance of two places.
-fn between(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub fn between(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| square(a[k] - b[k])).sum::<f64>().sqrt()
 }
 

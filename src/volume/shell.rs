@@ -12,7 +12,7 @@
 use crate::interior::Interior;
 use crate::math::square;
 use crate::plane::{Lattice, Rect};
-use crate::volume::distances::{Corner, Distances, number_along};
+use crate::volume::distances::{Corner, Distances, between, number_along};
 use crate::volume::voxels::{Level, Voxel};
 
 /// Distances are right to this share of the diagonal of the box around the mesh (`interior/nearest.rs`).
@@ -208,14 +208,16 @@ impl<'a> Shell<'a> {
         if self.corners.is_empty() {
             self.corners = vec![None; counts.iter().map(|count| count + 1).product()];
         }
+        let mut foot = [f64::INFINITY; 3];
         let corners = std::array::from_fn(|corner| {
             let number: [usize; 3] = std::array::from_fn(|axis| usize::from(place[axis]) + number_along(corner, axis));
             let index = (number[2] * (counts[1] + 1) + number[1]) * (counts[0] + 1) + number[0];
             let known = self.corners[index].unwrap_or_else(|| {
                 let along = |axis: usize| number[axis] as f64 * side[axis] - half[axis];
-                self.corner(std::array::from_fn(along), side)
+                self.corner(std::array::from_fn(along), side, foot)
             });
             self.corners[index] = Some(known);
+            foot = known.foot;
             known
         });
         let low = self.place(std::array::from_fn(|axis| f64::from(place[axis]) * side[axis] - half[axis]));
@@ -227,15 +229,21 @@ impl<'a> Shell<'a> {
         let sides = halves.map(|half| 2.0 * half);
         let low: [f64; 3] = std::array::from_fn(|axis| centre[axis] - halves[axis]);
         let along = |corner: usize, axis: usize| low[axis] + number_along(corner, axis) as f64 * sides[axis];
-        let corners = std::array::from_fn(|corner| self.corner(std::array::from_fn(|axis| along(corner, axis)), sides));
+        let mut foot = [f64::INFINITY; 3];
+        let corners = std::array::from_fn(|corner| {
+            let known = self.corner(std::array::from_fn(|axis| along(corner, axis)), sides, foot);
+            foot = known.foot;
+            known
+        });
         Distances { low: self.place(low), sides: sides.map(|side| self.radius * side), corners }
     }
 
-    /// A corner of a box with these sides. If no place of the box can be cut, it is enough that it is far.
-    fn corner(&self, place: [f64; 3], sides: [f64; 3]) -> Corner {
-        let Thickness { distance, error } = self.thickness;
-        let far = distance + 2.0 * self.reach(sides);
-        let nearest = self.interior.nearest_in_band(self.place(place), [-1.0, far]);
+    /// A corner of a box with these sides. If no place of the box can be cut, it is enough that it is far. A place of the surface that
+    /// may be near, or infinitely far, makes the search shorter.
+    fn corner(&self, place: [f64; 3], sides: [f64; 3], foot: [f64; 3]) -> Corner {
+        let (Thickness { distance, error }, place) = (self.thickness, self.place(place));
+        let far = (distance + 2.0 * self.reach(sides)).min(between(place, foot) + error);
+        let nearest = self.interior.nearest_in_band(place, [-1.0, far]);
         let (foot, distance) = nearest.map_or(([f64::INFINITY; 3], far), |(foot, squared)| (foot, squared.sqrt()));
         Corner { least: square((distance - error).max(0.0)), foot }
     }
