@@ -91,7 +91,7 @@ pub struct UniformRelaxation {
     /// The edges of the mesh that may have to be flipped after the last step; none if triangles may have turned over.
     suspects: Option<Vec<Edge>>,
     /// The cells of the points, while they are valid.
-    cells: Option<VerletCells>,
+    cells: Option<Box<VerletCells>>,
 }
 
 impl UniformRelaxation {
@@ -123,7 +123,8 @@ impl UniformRelaxation {
         let places = &self.state.places;
         if self.neighbourhood == Neighbourhood::Nearest {
             let reach = self.constraints(iteration).conflict_radius;
-            let mut cells = self.cells.take().unwrap_or_else(|| VerletCells::new(&self.torus, places, reach));
+            let cells = self.cells.take();
+            let mut cells = cells.unwrap_or_else(|| Box::new(VerletCells::new(&self.torus, places, reach)));
             cells.update(job, places)?;
             return Ok(NeighbourSearch::Nearest(cells));
         }
@@ -316,7 +317,7 @@ pub const JAMMED: f32 = 0.02;
 /// Finds the neighbours of each point.
 pub enum NeighbourSearch {
     Delaunay(Neighbours<Box<FlipMesh>>),
-    Nearest(VerletCells),
+    Nearest(Box<VerletCells>),
 }
 
 /// The positions and velocities of the points.
