@@ -100,8 +100,9 @@ mod tests {
         for side in [0.25, 0.5, 1.0] {
             let found = bounds(&places, [-0.5 * side, -0.4 * side, 1.0], [side; 3], &mut rng);
             for ([least, most], distance) in found {
-                assert!(distance - least < 0.27 * square(side) + 1e-3, "{side}: {least} {distance}");
-                assert!(most - distance < 0.27 * square(side) + 1e-2, "{side}: {most} {distance}");
+                let spread = 0.5 * square(side);
+                assert!(least > (square(distance) - spread).sqrt() - 1e-3, "{side}: {least} {distance}");
+                assert!(most < (square(distance) + spread).sqrt() + 1e-2, "{side}: {most} {distance}");
             }
         }
     }
