@@ -18,7 +18,7 @@ const FEWEST_BYTES: f64 = 3.0 * (1 << 20) as f64;
 ///
 /// Less than 1 MiB is not refused. Nothing is refused where the operating system does not tell the limit (only Linux is asked), except on WebAssembly,
 /// where a failed allocation would abort the program: there, memory that cannot be reserved at once is refused.
-pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
+pub fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
     let bytes = bytes + (2.0 * bytes).min(SLACK);
     if !can_be_reserved(bytes) {
         return Err(Error::too_large(
@@ -38,7 +38,7 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
 }
 
 /// Refuses more points than fit in memory, of so many bytes each at the peak.
-pub(crate) fn require_points(argument: &'static str, count: usize, bytes: f64) -> Result<()> {
+pub fn require_points(argument: &'static str, count: usize, bytes: f64) -> Result<()> {
     require(bytes * count as f64, argument, &format!("{count} points"))
 }
 
@@ -61,7 +61,7 @@ fn can_be_reserved(bytes: f64) -> bool {
 }
 
 /// The bytes of memory that are available without swapping, where the operating system tells.
-pub(crate) fn available() -> Option<f64> {
+pub fn available() -> Option<f64> {
     let machine = read("/proc/meminfo").and_then(|table| entry(&table, "MemAvailable:"));
     [machine, address_space(), control_groups(Path::new("/sys/fs/cgroup"))].into_iter().flatten().reduce(f64::min)
 }
@@ -79,7 +79,7 @@ fn entry(table: &str, name: &str) -> Option<f64> {
 }
 
 /// True if the process has a limit of address space.
-pub(crate) fn has_address_limit() -> bool {
+pub fn has_address_limit() -> bool {
     address_limit().is_some()
 }
 

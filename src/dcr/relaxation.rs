@@ -12,6 +12,7 @@
 use crate::error::{Error, Result};
 use crate::index::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
+pub use crate::memory::require_points;
 use crate::points::Domain;
 use crate::setters::setters;
 

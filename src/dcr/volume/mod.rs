@@ -19,13 +19,12 @@ mod torus;
 
 pub use solid::{InsideOptions, relax_inside};
 
-use crate::dcr::relaxation::{Limits, Steps, Stopped, run};
+use crate::dcr::relaxation::{Limits, Steps, Stopped, require_points, run};
 use crate::dcr::volume::relaxation::VolumeRelaxation;
 use crate::dcr::volume::smallest::smallest_distance;
 use crate::dcr::volume::torus::VolumeTorus;
 use crate::error::Result;
 use crate::job::{Context, Progress};
-use crate::memory;
 use crate::points::Domain;
 use crate::setters::setters;
 
@@ -127,7 +126,7 @@ pub fn relax(
     domain.check_points(points)?;
     let torus = VolumeTorus::new(domain, points.len().max(1));
     let bytes = BYTES_PER_POINT + BYTES_PER_IMAGE * torus.images().count() as f64;
-    memory::require_points("positions", points.len(), bytes)?;
+    require_points("positions", points.len(), bytes)?;
     let mut set = VolumeRelaxation::new(torus, points, max_iterations, seed);
     relax_set(
         context,
