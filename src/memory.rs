@@ -16,8 +16,9 @@ const FEWEST_BYTES: f64 = 3.0 * (1 << 20) as f64;
 /// its control groups (those of a container, say) can give now. `argument` is the option that asks for them and `what`
 /// names their use: "3000000 samples".
 ///
-/// Less than 1 MiB is not refused. Nothing is refused where the operating system does not tell the limit (only Linux is asked), except on WebAssembly,
-/// where a failed allocation would abort the program: there, memory that cannot be reserved at once is refused.
+/// Less than 1 MiB is not refused, nor is anything where the operating system does not tell the limit (only Linux is asked),
+/// except on WebAssembly, where a failed allocation would abort the program: there, memory that cannot be reserved at once is
+/// refused.
 pub fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
     let bytes = bytes + (2.0 * bytes).min(SLACK);
     if !can_be_reserved(bytes) {
