@@ -404,7 +404,7 @@ fn most_within([width, height]: [f64; 2]) -> f64 {
 }
 
 /// The most bytes for each sample that the classes would have alone; with ranks.
-const BYTES_PER_CLASS_SAMPLE: f64 = 47.0;
+const BYTES_PER_CLASS_SAMPLE: f64 = 52.0;
 const BYTES_PER_RANKED_SAMPLE: f64 = 53.0;
 
 /// Refuses more samples of several classes in a rectangle than can be held beside given ones.

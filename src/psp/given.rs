@@ -130,7 +130,7 @@ const MOST: usize = (u32::MAX / 8) as usize;
 
 /// Peak memory for given samples, approximately: of those that may be obstacles more.
 pub fn bytes(given: Given<3>) -> f64 {
-    given.positions.len() as f64 * if given.clearances.is_none() { 40.0 } else { 300.0 }
+    given.positions.len() as f64 * if given.clearances.is_none() { 60.0 } else { 300.0 }
 }
 
 fn check(given: Given<3>) -> Result<()> {

@@ -321,11 +321,11 @@ impl FlatOptions<'_> {
 
 /// Peak memory per sample of a set in progressive order; of an exact number of samples; of both; of a set that grows by
 /// iterations; and of one of a single iteration of local projectors.
-const BYTES_PER_RANKED_SAMPLE: f64 = 202.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 210.0;
 const BYTES_PER_COUNTED_SAMPLE: f64 = 160.0;
 const BYTES_PER_PROJECTED_SAMPLE: f64 = 215.0;
-const BYTES_PER_FIRST_SAMPLE: f64 = 216.0;
-const BYTES_PER_CANDIDATE: f64 = 175.0;
+const BYTES_PER_FIRST_SAMPLE: f64 = 250.0;
+const BYTES_PER_CANDIDATE: f64 = 181.0;
 const BYTES_PER_HIT: f64 = 152.0;
 
 /// The largest number of samples that can be indexed.

@@ -29,6 +29,8 @@ const ALONE: &[f64] = &[1.0];
 const BYTES_PER_OTHER: f64 = 157.0;
 const BYTES_PER_OWN: f64 = 51.0;
 const BYTES_PER_MADE: f64 = 40.0;
+/// For what threads keep of the classes around a block.
+const BYTES_AROUND: f64 = (2 << 20) as f64;
 
 /// The options of [`sample_classes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +90,7 @@ pub fn sample_classes(
             format!("they ask for about {expected:.2e} samples, above the limit of {:.2e}", f64::from(u32::MAX));
         return Err(Error::too_large("radii", reason));
     }
-    require(context, expected, bytes(classes, &each) / expected, &given, 0.0, "radii")?;
+    require(context, expected, bytes(classes, &each) / expected, &given, BYTES_AROUND, "radii")?;
     let lattice = Lattice::of_any_size(&domain, finest)?;
     let ground = Ground { domain, lattice: &lattice, classes, given, seed };
     let samples = context.run(progress, |job| ground.fill(job, &each))?;

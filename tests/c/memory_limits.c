@@ -780,7 +780,7 @@ static const struct {
     {"mesh, count", mesh_count, 250000, MOST_ASKED},
     {"mesh, count, progressive", mesh_count_progressive, 125000, MOST_ASKED},
     {"mesh, given samples", mesh_around, 300000, MOST_ASKED},
-    {"mesh, many given samples", mesh_around_many, 300000, MOST_ASKED},
+    {"mesh, many given samples", mesh_around_many, 300000, MOST_ASKED_UNEVENLY},
     {"mesh, 2 classes", mesh_classes, 300000, MOST_ASKED},
     {"mesh, 2 classes, progressive", mesh_classes_progressive, 100000, MOST_ASKED_UNEVENLY},
     {"mesh, 2 classes, density", mesh_classes_density, 150000, MOST_ASKED_UNEVENLY},
