@@ -32,7 +32,7 @@ use crate::psp::report::Report;
 
 /// Peak memory for each sample that the classes would have alone; in progressive order.
 const BYTES_PER_SAMPLE: f64 = 105.0;
-const BYTES_PER_RANKED_SAMPLE: f64 = 720.0;
+const BYTES_PER_RANKED_SAMPLE: f64 = 690.0;
 
 /// Samples a mesh with several classes at once.
 ///
