@@ -161,8 +161,8 @@ uint32_t azulejo_mesh_is_closed(const azulejo_mesh *mesh);
 /// Writes to `inside` for each of `count` points, x y z each, 1 if it is inside the mesh, else 0.
 /// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles,
 /// without rounding: meshes that share a face share no point. In any other mesh the generalised
-/// winding number is at least 1/2, or at most -1/2, up to .02. O(triangles * log triangles) the
-/// first time, then about O(log triangles) for a point.
+/// winding number is at least 1/2, or at most -1/2, up to .02 if the boundary has more than 2,048
+/// edges. O(triangles * log triangles) the first time, then about O(log triangles) for a point.
 azulejo_status azulejo_mesh_contains(const azulejo_context *context,
                                      const azulejo_mesh *mesh,
                                      const float *positions,
