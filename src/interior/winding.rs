@@ -4,10 +4,10 @@
 //! all triangles seen from there, over 4π: 1 inside of a closed surface whose triangles face outwards, 0 outside, and between
 //! the two near holes. Triangles of a node that is far away count by its dipole and the first moment of that (their order 1).
 //!
-//! Departures: the boundary of each part of the surface is closed by *caps*, triangles with one corner in common. The winding
-//! number of the surface with its caps is the sum of crossings of a ray; only that of the caps, which is taken away, asks a tree
-//! of angles. So a large mesh with small holes costs little more than a closed one, and loose triangles are their own caps.
-//! Where there are few caps, all of their angles are summed wherever the tree leaves the side open.
+//! Departures: the boundary of each part of the surface is closed by *fans*, triangles with one corner in common. The winding
+//! number of the surface with its fans is the sum of crossings of a ray; only that of the fans, which is taken away, asks a tree
+//! of angles. So a large mesh with small holes costs little more than a closed one, and loose triangles are their own fans.
+//! Where there are few fans, all of their angles are summed wherever the tree leaves the side open.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -19,13 +19,14 @@ use crate::interior::tree::{CHILDREN, Tree};
 use crate::math::atan2;
 use crate::mesh::{Mesh, exact};
 
-/// A node is far if it is this many times farther than its radius.
+/// A node is far if it is this many times farther than its radius: at first, and for numbers right to about 1/1000.
 const FAR: f64 = 3.0;
+const FAR_TO_BE_PRECISE: f64 = 8.0;
 
 /// The whole sphere.
 const SPHERE: f64 = 2.0 * TAU;
 
-/// Up to so many caps are summed without the tree where its number is this near to the border, and then right to the last.
+/// Up to so many fans are summed without the tree where its number is this near to the border, and then right to the last.
 const FEW: usize = 2048;
 const CLOSE: f64 = 0.05;
 pub const ERROR_OF_FEW: f64 = 1e-6;
@@ -45,16 +46,16 @@ struct Moments {
     first: [DVec3; 3],
 }
 
-/// The caps of a surface by their angles.
+/// The fans of a surface by their angles.
 #[derive(Debug)]
-pub struct Caps {
+pub struct Fans {
     pub tree: Tree,
     /// The moments of the tree's nodes, by its levels.
     moments: Vec<Vec<Moments>>,
 }
 
-impl Caps {
-    /// The caps of the boundary edges of a mesh (`sides.rs`).
+impl Fans {
+    /// The fans of the boundary edges of a mesh (`sides.rs`).
     pub fn new(mesh: &Mesh, boundary: &[[u32; 2]]) -> Self {
         // Edges that are connected have the first vertex of any in common.
         let mut parents = BTreeMap::new();
@@ -63,11 +64,11 @@ impl Caps {
             parents.insert(from.max(to), from.min(to));
         }
         let place = |vertex: u32| mesh.positions()[vertex as usize];
-        let cap = |&[from, to]: &[u32; 2]| [root(&mut parents, from), from, to].map(place);
-        Self::of(&boundary.iter().map(cap).collect::<Vec<_>>())
+        let triangle = |&[from, to]: &[u32; 2]| [root(&mut parents, from), from, to].map(place);
+        Self::of(&boundary.iter().map(triangle).collect::<Vec<_>>())
     }
 
-    /// Triangles as caps.
+    /// Triangles as fans.
     fn of(triangles: &[[[f32; 3]; 3]]) -> Self {
         // Those at the first corner of a boundary have no area.
         let has_area = |[a, b, c]: &&[[f32; 3]; 3]| a != b && b != c && c != a;
@@ -90,14 +91,14 @@ impl Caps {
         Self { tree, moments }
     }
 
-    /// True if numbers beside the border are sums of all caps.
+    /// True if numbers beside the border are sums of all fans.
     pub fn are_few(&self) -> bool {
         self.tree.corners.len() <= FEW
     }
 
-    /// The winding number of the caps at a point: the sum of all where the tree's, right to an error, leaves something open.
+    /// The winding number of the fans at a point: the sum of all where the tree's, right to an error, leaves something open.
     pub fn number_if(&self, place: [f32; 3], is_open: impl Fn(f64, f64) -> bool) -> f64 {
-        let number = self.at(place);
+        let number = self.at(place, FAR);
         if self.are_few() && is_open(number, CLOSE) { self.sum(place) } else { number }
     }
 
@@ -108,7 +109,7 @@ impl Caps {
             let [cosine, volume] = half_angle(place, corners);
             let side = side_of_plane(place, corners);
             if volume == 0.0 || side == 0 {
-                // In the plane of the cap, which may be half of the sphere on the side that crossings see.
+                // In the plane of the triangle, which may be half of the sphere on the side that crossings see.
                 halves -= if cosine < 0.0 { side } else { 0 };
                 continue;
             }
@@ -127,15 +128,20 @@ impl Caps {
         (f64::from(turns) * TAU + f64::from(halves) * 0.5 * TAU + atan2(product[1], product[0])) / TAU
     }
 
-    /// The winding number of the caps at a point, by the tree.
-    fn at(&self, place: [f32; 3]) -> f64 {
+    /// The winding number of the fans at a point, to about 1/1000.
+    pub fn number(&self, place: [f32; 3]) -> f64 {
+        self.at(place, FAR_TO_BE_PRECISE)
+    }
+
+    /// The winding number of the fans at a point, by the tree.
+    fn at(&self, place: [f32; 3], far: f64) -> f64 {
         let (point, mut angle) = (exact(place), 0.0);
         let mut stack = vec![(self.moments.len() - 1, 0)];
         while let Some((level, node)) = stack.pop() {
             let moments = &self.moments[level][node];
             let away = moments.centre - point;
             let distance = away.length();
-            if distance > FAR * moments.radius {
+            if distance > far * moments.radius {
                 angle += moments.angle(away, distance);
             } else if level > 0 {
                 stack.extend(
@@ -188,7 +194,7 @@ fn sum(parts: &[Moments], hull: [[f32; 3]; 2]) -> Moments {
 }
 
 /// The solid angle of a triangle seen from a point: van Oosterom and Strackee 1983. Its sign is that of the side on which the
-/// point lies as crossings see it, so that what is taken away beside a cap is what was added.
+/// point lies as crossings see it, so that what is taken away beside a fan is what was added.
 fn solid_angle(point: [f32; 3], corners: &[[f32; 3]; 3]) -> f64 {
     let [cosine, volume] = half_angle(point, corners);
     -f64::from(side_of_plane(point, corners)) * 2.0 * atan2(volume, cosine)
@@ -257,7 +263,7 @@ mod tests {
         for (triangles, error) in
             [(bowl(30, 1.0), 0.015), (bowl(30, 0.3), 0.01), (soup(60), 0.001), (soup(2000), 0.002)]
         {
-            let caps = Caps::of(&triangles);
+            let fans = Fans::of(&triangles);
             let mut worst: f64 = 0.0;
             for probe in 0..400 {
                 let mut point = [0; 3].map(|_: i32| 3.0 * rng.unit() as f32 - 1.5);
@@ -266,9 +272,9 @@ mod tests {
                     let [a, b, _] = triangles[probe % triangles.len()];
                     point = if probe % 8 == 0 { a } else { [0, 1, 2].map(|k| 0.5 * (a[k] + b[k])) };
                 } else {
-                    worst = worst.max((caps.at(point) - all(&triangles, point)).abs());
+                    worst = worst.max((fans.at(point, FAR) - all(&triangles, point)).abs());
                 }
-                assert!((caps.sum(point) - all(&triangles, point)).abs() < 1e-11, "{point:?}");
+                assert!((fans.sum(point) - all(&triangles, point)).abs() < 1e-11, "{point:?}");
             }
             assert!(worst < error, "{worst}");
         }

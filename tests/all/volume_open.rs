@@ -1,0 +1,237 @@
+//! Sets inside of meshes that are not closed: those with flat holes against the meshes that are closed by hand, others against
+//! winding numbers by sums over all triangles.
+
+use std::sync::Arc;
+
+use azulejo::dcr::volume::{InsideOptions as Relaxation, relax_inside};
+use azulejo::mesh::Mesh;
+use azulejo::volume::{InsideOptions, InsideReport, Surface, adaptive, sample_inside};
+use azulejo::{Context, Order, Points, psp};
+
+use crate::common::meshes::{self, Soup};
+use crate::common::random::Random;
+use crate::common::volume_oracle::{conflict, distance};
+use crate::interior::winding;
+use crate::volume_inside::{check_seeds_and_threads, check_shell, corners, cube, depth, made, mesh, scaled, space};
+
+fn without_last((positions, mut triangles): Soup, count: usize) -> Soup {
+    triangles.truncate(triangles.len() - count);
+    (positions, triangles)
+}
+
+/// A mesh without the triangles that have a corner in one of these cubes, by their centres and half sides.
+fn pierced((positions, mut triangles): Soup, holes: &[[f32; 4]]) -> Soup {
+    let is_in = |p: [f32; 3]| {
+        holes.iter().any(|&[x, y, z, half]| (p[0] - x).abs().max((p[1] - y).abs()).max((p[2] - z).abs()) < half)
+    };
+    triangles.retain(|triangle| !triangle.iter().any(|&vertex| is_in(positions[vertex as usize])));
+    (positions, triangles)
+}
+
+fn turned((positions, mut triangles): Soup) -> Soup {
+    triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    (positions, triangles)
+}
+
+/// A part of a surface of revolution around the z axis, of radii and heights by a turn and a share of the way up, and discs at the
+/// ends of some ways: so many of its last triangles close it.
+fn revolved(at: impl Fn(f64, f64) -> [f64; 2], steps: u32, discs: &[u32]) -> Soup {
+    let place = |i: u32, j: u32| {
+        let turn = std::f64::consts::TAU * f64::from(i % steps) / f64::from(steps);
+        let [across, z] = at(turn, f64::from(j) / f64::from(steps));
+        [across * turn.cos(), across * turn.sin(), z].map(|x| x as f32)
+    };
+    let vertex = |i: u32, j: u32| i % steps + steps * j;
+    let mut positions: Vec<_> =
+        (0..=steps).flat_map(|j| (0..steps).map(move |i| (i, j))).map(|(i, j)| place(i, j)).collect();
+    let quad = |n: u32| {
+        let (i, j) = (n % steps, n / steps);
+        let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let mut triangles: Vec<_> = (0..steps * steps).flat_map(quad).collect();
+    for &j in discs {
+        let centre = positions.len() as u32;
+        positions.push([0.0, 0.0, place(0, j)[2]]);
+        triangles.extend((0..steps).map(|i| [vertex(i, j), vertex(i + 1, j), centre]));
+    }
+    (positions, triangles)
+}
+
+/// A bowl from the south pole to a height, by the turn.
+fn bowl(height: impl Fn(f64) -> f64, discs: &[u32]) -> Soup {
+    let at = |turn: f64, share: f64| {
+        let z = share * (1.0 + height(turn)) - 1.0;
+        [(1.0 - z * z).max(0.0).sqrt(), z]
+    };
+    revolved(at, 24, discs)
+}
+
+/// Where the surface is on one side of a flat hole, the level 1/2 is flat.
+#[test]
+fn flat_holes_are_closed_by_flat_caps() {
+    let tube = |discs: &[u32]| revolved(|_, share| [0.5, 2.0 * share - 1.0], 12, discs);
+    for (name, closed, caps, radius) in [
+        ("cube without a face", cube(), 2, 0.12),
+        ("cube without a triangle", cube(), 1, 0.12),
+        ("hemisphere", bowl(|_| 0.0, &[24]), 24, 0.17),
+        ("hemisphere that faces inwards", turned(bowl(|_| 0.0, &[24])), 24, 0.17),
+        ("tube", tube(&[0, 12]), 24, 0.12),
+    ] {
+        let [closed, open] = [mesh(closed.clone()), mesh(without_last(closed, caps))];
+        assert!(closed.is_closed() && !open.is_closed(), "{name}");
+        for (seed, surface, thickness) in
+            [(1, Surface::Open, 0.0), (2, Surface::First, 0.0), (3, Surface::Open, 0.8 * radius)]
+        {
+            let options = InsideOptions::new(radius).seed(seed).surface(surface).thickness(thickness);
+            let (points, report) = made(&open, &options);
+            let thickness = if thickness > 0.0 { thickness } else { f64::INFINITY };
+            assert!(points.len() > 100 && check_shell(&closed, &points, &report, &[], thickness) > 300, "{name}");
+            let of_surface = psp::Options::new(radius).seed(seed);
+            let surface = psp::sample(&Context::new(1).unwrap(), &open, &of_surface, None).unwrap().0;
+            let first = &points.positions[..report.surface_samples];
+            assert!(first.is_empty() || first == surface.positions, "{name}");
+        }
+        let counted = made(&open, &InsideOptions::by_count(200).order(Order::Progressive));
+        assert_eq!(counted.0.len(), 200);
+        check_shell(&closed, &counted.0, &counted.1, &[], f64::INFINITY);
+    }
+}
+
+/// Checks that samples wind and do not conflict, and that no place of a grid is open that winds more and is not near to the
+/// surface; gives the number of those that are covered.
+fn check(mesh: &Mesh, points: &Points<3>, report: &InsideReport) -> usize {
+    let (domain, triangles, mut covered) = (space(mesh), corners(mesh), 0);
+    assert_eq!(conflict(&domain, report.radius, &points.positions), None);
+    for &sample in &points.positions[report.surface_samples..] {
+        let wound = winding(mesh, sample).abs();
+        assert!(wound > 0.47 || depth(&triangles, sample.map(f64::from)) < 0.02, "{sample:?} winds {wound}");
+    }
+    let (limit, steps) = (report.covering_radius + 7.0 * f64::from(f32::EPSILON) * 4.0, 24);
+    for k in 0..steps * steps * steps {
+        let share = [k % steps, k / steps % steps, k / steps / steps].map(|n| (f64::from(n) + 0.37) / f64::from(steps));
+        let place = [0, 1, 2].map(|k: usize| domain.min[k] + domain.extent()[k] * share[k]);
+        let is_covered = points.positions.iter().any(|s| distance(&domain, s.map(f64::from), place) < limit);
+        let wound = winding(mesh, place.map(|x| x as f32)).abs();
+        covered += usize::from(is_covered && wound > 0.5);
+        let is_near = || depth(&triangles, place) <= report.depth;
+        assert!(is_covered || wound < 0.56 || is_near(), "{place:?} is open, and winds {wound}");
+    }
+    covered
+}
+
+#[test]
+fn other_holes_are_closed_at_the_level_of_a_half() {
+    let holes = [[0.0, 0.0, 1.0, 0.4], [1.0, 0.0, 0.0, 0.3], [-0.7, -0.7, 0.0, 0.5]];
+    let ball = || bowl(|_| 1.0, &[]);
+    for (name, soup, radius) in [
+        ("saddle", bowl(|turn| 0.3 * (2.0 * turn).cos(), &[]), 0.15),
+        ("crown", bowl(|turn| 0.4 + 0.2 * (5.0 * turn).sin(), &[]), 0.15),
+        ("ball with holes", pierced(ball(), &holes), 0.2),
+        ("ball that faces inwards", turned(pierced(ball(), &holes[..1])), 0.2),
+        ("ball without a triangle", without_last(ball(), 25), 0.2),
+        ("torus with a hole", pierced(meshes::welded(meshes::torus()), &[[1.2, 0.0, 0.3, 0.3]]), 0.14),
+        ("torus with a gap", pierced(meshes::welded(meshes::torus()), &[[1.0, 0.0, 0.0, 0.5]]), 0.14),
+        ("hollow ball", meshes::join([ball(), turned(scaled(pierced(ball(), &holes[..1]), 0.5))]), 0.15),
+    ] {
+        let mesh = mesh(soup);
+        assert!(!mesh.is_closed(), "{name}");
+        for (seed, surface) in [(1, Surface::Open), (2, Surface::First)] {
+            let (points, report) = made(&mesh, &InsideOptions::new(radius).seed(seed).surface(surface));
+            let covered = check(&mesh, &points, &report);
+            assert!(points.len() > 80 && covered > 1_500, "{name}: {} {covered}", points.len());
+        }
+    }
+}
+
+#[test]
+fn seeds_and_not_threads_decide() {
+    check_seeds_and_threads(&mesh(bowl(|turn| 0.3 * (2.0 * turn).cos(), &[])), InsideOptions::new(0.1));
+}
+
+/// Loose triangles and flat sheets, whose caps are the same triangles, and their errors.
+#[test]
+fn meshes_that_enclose_nothing_are_refused() {
+    let triangle = (vec![[0.0; 3], [1.0, 0.1, 0.0], [0.2, 1.0, 0.3]], vec![[0, 1, 2]]);
+    for soup in [triangle, meshes::plane(), meshes::random_soup(2, 60), meshes::needles(1e-3)] {
+        let mesh = mesh(soup);
+        for options in [
+            InsideOptions::new(0.1),
+            InsideOptions::new(0.1).surface(Surface::First),
+            InsideOptions::new(0.1).order(Order::Progressive),
+            InsideOptions::by_count(5),
+        ] {
+            let error = sample_inside(&Context::new(1).unwrap(), &mesh, &options, None).unwrap_err().to_string();
+            assert!(error.starts_with("mesh: encloses nothing: caps close its holes"), "{error}");
+        }
+    }
+}
+
+/// A mask opens a mesh.
+#[test]
+fn triangles_that_are_left_out_are_holes() {
+    let (positions, triangles) = cube();
+    let masked = Mesh::new(positions.clone(), triangles.clone()).unwrap();
+    let masked = Arc::new(masked.with_mask((0..12).map(|k| k < 10).collect()).unwrap());
+    let open = mesh(without_last((positions, triangles), 2));
+    let options = InsideOptions::new(0.13);
+    assert_eq!(made(&masked, &options).0.positions, made(&open, &options).0.positions);
+}
+
+#[test]
+fn radii_that_vary_stay_inside() {
+    let [open, closed] = [mesh(without_last(cube(), 2)), mesh(cube())];
+    let context = Context::new(1).unwrap();
+    let at = |place: [f64; 3]| 0.08 + 0.1 * place[0];
+    let radius = adaptive::Radius::Function { at: &at, smallest: 0.05, largest: 0.3, slope: 0.11 };
+    let points = adaptive::sample_inside(&context, &open, &adaptive::InsideOptions::new(radius), None).unwrap().0;
+    assert!(points.len() > 100 && points.positions.iter().all(|&sample| closed.contains(sample)));
+}
+
+/// Points that slide stay on the mesh, and no other one leaves through a cap.
+#[test]
+fn points_are_relaxed_up_to_the_caps() {
+    let [open, closed] = [mesh(without_last(cube(), 2)), mesh(cube())];
+    let (points, report) = made(&open, &InsideOptions::new(0.1).surface(Surface::First));
+    let mut random = Random::new(3);
+    let moved = points.positions.iter().enumerate().map(|(k, &place)| {
+        let shaken = place.map(|x| x + 0.02 * (random.unit() - 0.5));
+        if k >= report.surface_samples && closed.contains(shaken) { shaken } else { place }
+    });
+    let start: Vec<_> = moved.collect();
+    let sliding: Vec<bool> = (0..points.len()).map(|k| k < report.surface_samples).collect();
+    let options = Relaxation::default().max_iterations(60).sliding(&sliding);
+    let relaxed = relax_inside(&Context::new(1).unwrap(), &open, &options, &start, None).unwrap().0;
+    let (triangles, mut slid) = (corners(&open), 0);
+    for (k, &place) in relaxed.iter().enumerate() {
+        if sliding[k] {
+            assert!(depth(&triangles, place.map(f64::from)) < 1e-6, "{place:?} is off the surface");
+            slid += usize::from(place != start[k]);
+        } else {
+            assert!(closed.contains(place), "{place:?} is outside");
+        }
+    }
+    assert!(slid > 100);
+}
+
+#[test]
+fn bunny_times() {
+    for path in ["/work/shared/meshes/bunny.obj", "/tmp/bunny_closed.obj"] {
+        let start = std::time::Instant::now();
+        let mesh = Arc::new(Mesh::load(path).unwrap());
+        println!("{path}: loaded {:?}, closed {}", start.elapsed(), mesh.is_closed());
+        let start = std::time::Instant::now();
+        azulejo::Interior::of(&mesh);
+        println!("interior {:?}", start.elapsed());
+        let start = std::time::Instant::now();
+        made(&mesh, &InsideOptions::by_count(1));
+        println!("first sample {:?}", start.elapsed());
+        for count in [100_000, 100_000] {
+            let start = std::time::Instant::now();
+            let radius = (mesh.bounds().1[0] - mesh.bounds().0[0]) as f64 / 60.0;
+            let (points, _) = made(&mesh, &InsideOptions::new(radius));
+            let time = start.elapsed().as_secs_f64();
+            println!("{} samples, {:.2} us each ({count})", points.len(), 1e6 * time / points.len() as f64);
+        }
+    }
+}
