@@ -4,7 +4,7 @@
 //! the triangulation of least area (Barequet and Sharir 1995, "Filling gaps in the boundary of a polyhedron"; Liepa 2003, "Filling
 //! holes in meshes"), whose edges are then halved until they are short beside the ring. Each new vertex is moved to where the
 //! generalised winding number (`winding.rs`; Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
-//! numbers") is 1/2, if that is near: where the surface is on one side of a flat ring, the cap stays flat.
+//! numbers") is 1/2, or as near to it as halves of its edge allow: where the surface is on one side of a flat ring, the cap stays flat.
 //!
 //! The mesh with its caps is closed by construction, however floats are rounded: edges of rings are not changed, and where vertices
 //! are put on them, triangles of no area are between the old edge and the new ones. The cap of a loose triangle is that triangle.
@@ -35,12 +35,14 @@ const BEST: usize = 64;
 const SHORTNESS: f64 = 1e-3;
 
 /// A vertex is moved by at most this share of the edge that it halves.
-const REACH: f64 = 0.25;
+const REACH: f64 = 0.5;
 
-/// The numbers are asked for along a line at most so often, until one is right to `GOOD`. One that is right to `FAIR` will do.
+/// The numbers are asked for along a line at most so often, until one is right to this.
 const TRIALS: usize = 7;
 const GOOD: f64 = 1e-3;
-const FAIR: f64 = 1e-2;
+
+/// A place is on the surface if it is nearer than this, in lengths of the ring.
+const ON_SURFACE: f64 = 1e-6;
 
 /// No triangle: beyond an edge of the ring.
 const NONE: usize = usize::MAX;
@@ -70,7 +72,13 @@ fn capped(mesh: &Mesh, boundary: &[[u32; 2]], interior: &Interior) -> Result<Mes
     let lengths: Vec<f64> = rings.iter().map(|ring| length(&places(ring))).collect();
     let common = (lengths.iter().map(|length| length * length).sum::<f64>() / IN_FULL).sqrt();
     for (ring, length) in rings.iter().zip(lengths) {
-        let cap = Cap::new(places(ring), length, length.max(common) / PIECES, |place| interior.winding(place));
+        // On the surface the number jumps from 1/2 to -1/2, as of a sheet, which is its own cap.
+        let on_surface = ON_SURFACE * length;
+        let winding = |place: [f32; 3]| match interior.nearest(place.map(f64::from), on_surface) {
+            Some(_) => WOUND,
+            None => interior.winding(place),
+        };
+        let cap = Cap::new(places(ring), length, length.max(common) / PIECES, winding);
         let first = positions.len();
         let vertex = |number: u32| match ring.get(number as usize) {
             Some(&vertex) => vertex,
@@ -224,8 +232,8 @@ fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The place along a direction, no farther than a reach, where the winding number is 1/2 in size, by the method of secants; the
-/// start if none is found.
+/// The place along a direction, no farther than a reach, where the winding number is nearest to 1/2 in size of those that the
+/// method of secants asks for.
 fn level(start: DVec3, direction: DVec3, [reach, length]: [f64; 2], winding: impl Fn([f32; 3]) -> f64) -> [f32; 3] {
     let at = |along: f64| {
         let place = (start + along * direction).as_vec3().to_array();
@@ -249,7 +257,7 @@ fn level(start: DVec3, direction: DVec3, [reach, length]: [f64; 2], winding: imp
         (last, excess) = (along, found);
         along = if next.is_finite() { next.clamp(-reach, reach) } else { last };
     }
-    if least <= FAIR { best } else { first }
+    best
 }
 
 /// Triangulates a ring of vertices.
@@ -371,7 +379,7 @@ mod tests {
             let inner: Vec<_> =
                 new.iter().filter(|p| (5.5..14.5).contains(&p[0]) && (5.5..14.5).contains(&p[1])).collect();
             assert!((100..3000).contains(&inner.len()), "{}", inner.len());
-            let off = inner.iter().filter(|&&&place| (interior.winding(place).abs() - 0.5).abs() > FAIR);
+            let off = inner.iter().filter(|&&&place| (interior.winding(place).abs() - 0.5).abs() > 1e-2);
             assert_eq!(off.count(), 0);
             assert_eq!(new.iter().all(|place| place[2] == 4.0), flat);
         }

@@ -53,7 +53,9 @@ fn revolved(at: impl Fn(f64, f64) -> [f64; 2], steps: u32, discs: &[u32]) -> Sou
     for &j in discs {
         let centre = positions.len() as u32;
         positions.push([0.0, 0.0, place(0, j)[2]]);
-        triangles.extend((0..steps).map(|i| [vertex(i, j), vertex(i + 1, j), centre]));
+        triangles.extend((0..steps).map(|i| {
+            if j == 0 { [vertex(i + 1, j), vertex(i, j), centre] } else { [vertex(i, j), vertex(i + 1, j), centre] }
+        }));
     }
     (positions, triangles)
 }
@@ -76,7 +78,7 @@ fn flat_holes_are_closed_by_flat_caps() {
         ("cube without a triangle", cube(), 1, 0.12),
         ("hemisphere", bowl(|_| 0.0, &[24]), 24, 0.17),
         ("hemisphere that faces inwards", turned(bowl(|_| 0.0, &[24])), 24, 0.17),
-        ("tube", tube(&[0, 12]), 24, 0.12),
+        ("tube with a bottom", tube(&[0, 12]), 12, 0.12),
     ] {
         let [closed, open] = [mesh(closed.clone()), mesh(without_last(closed, caps))];
         assert!(closed.is_closed() && !open.is_closed(), "{name}");
@@ -126,7 +128,7 @@ fn other_holes_are_closed_at_the_level_of_a_half() {
     let ball = || bowl(|_| 1.0, &[]);
     for (name, soup, radius) in [
         ("saddle", bowl(|turn| 0.3 * (2.0 * turn).cos(), &[]), 0.15),
-        ("crown", bowl(|turn| 0.4 + 0.2 * (5.0 * turn).sin(), &[]), 0.15),
+        ("tube", revolved(|_, share| [0.5, 2.0 * share - 1.0], 24, &[]), 0.12),
         ("ball with holes", pierced(ball(), &holes), 0.2),
         ("ball that faces inwards", turned(pierced(ball(), &holes[..1])), 0.2),
         ("ball without a triangle", without_last(ball(), 25), 0.2),
@@ -149,11 +151,11 @@ fn seeds_and_not_threads_decide() {
     check_seeds_and_threads(&mesh(bowl(|turn| 0.3 * (2.0 * turn).cos(), &[])), InsideOptions::new(0.1));
 }
 
-/// Loose triangles and flat sheets, whose caps are the same triangles, and their errors.
+/// Loose triangles, whose caps are the same triangles.
 #[test]
 fn meshes_that_enclose_nothing_are_refused() {
     let triangle = (vec![[0.0; 3], [1.0, 0.1, 0.0], [0.2, 1.0, 0.3]], vec![[0, 1, 2]]);
-    for soup in [triangle, meshes::plane(), meshes::random_soup(2, 60), meshes::needles(1e-3)] {
+    for soup in [triangle, meshes::random_soup(2, 60), meshes::needles(1e-3)] {
         let mesh = mesh(soup);
         for options in [
             InsideOptions::new(0.1),
@@ -212,26 +214,4 @@ fn points_are_relaxed_up_to_the_caps() {
         }
     }
     assert!(slid > 100);
-}
-
-#[test]
-fn bunny_times() {
-    for path in ["/work/shared/meshes/bunny.obj", "/tmp/bunny_closed.obj"] {
-        let start = std::time::Instant::now();
-        let mesh = Arc::new(Mesh::load(path).unwrap());
-        println!("{path}: loaded {:?}, closed {}", start.elapsed(), mesh.is_closed());
-        let start = std::time::Instant::now();
-        azulejo::Interior::of(&mesh);
-        println!("interior {:?}", start.elapsed());
-        let start = std::time::Instant::now();
-        made(&mesh, &InsideOptions::by_count(1));
-        println!("first sample {:?}", start.elapsed());
-        for count in [100_000, 100_000] {
-            let start = std::time::Instant::now();
-            let radius = (mesh.bounds().1[0] - mesh.bounds().0[0]) as f64 / 60.0;
-            let (points, _) = made(&mesh, &InsideOptions::new(radius));
-            let time = start.elapsed().as_secs_f64();
-            println!("{} samples, {:.2} us each ({count})", points.len(), 1e6 * time / points.len() as f64);
-        }
-    }
 }
