@@ -91,23 +91,21 @@ sanitized_address() {
     tests/c/sanitized.sh address
 }
 
-# Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those run that name
-# Embree, tracing or its engines, except in a long run: the others would repeat what they did on the machine.
+# Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only the unit tests, the
+# sums and the programs that name Embree run, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
-    local what=(--workspace) modules=()
+    local what=(--workspace)
     if ! is_long; then
         mapfile -t what < <(grep -lE '\b(trace|embree|engine)' tests/*.rs ffi/*/tests/*.rs | as_tests)
-        mapfile -t modules < <(grep -liE '\b(trace|embree|engine)' tests/all/*.rs | as_modules)
         what+=(--test=sums --package azulejo --package azulejo-c --package azulejo-embree-sys --lib)
     fi
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         scripts/share-packages.sh target/package/build/cargo/release /var/cache/package/build/cargo/release
         cargo test --offline --locked $1
-        [ -z "$2" ] || cargo test --offline --locked --package azulejo --test all -- $2
         tests/c/package.sh --keep /var/cache/package
         AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix
-        tests/c/debs.sh /var/cache/package' bash "${what[*]}" "${modules[*]}"
+        tests/c/debs.sh /var/cache/package' bash "${what[*]}"
 }
 
 # Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
@@ -151,7 +149,7 @@ all_stages() {
     stage "README and guides: their programs and commands" \
         tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
     stage "C and C++ programs: plain, under valgrind" tests/c/run.sh $package/prefix --valgrind
-    stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh
+    stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh $(if_long)
     stage "Sums on other levels of x86" scripts/platforms.sh $(if_long) x86-levels
     stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
     stage "Python: a wheel, installed and tested in a clean environment" bindings/python/test.sh $(if_long)

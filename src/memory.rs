@@ -8,13 +8,18 @@ use crate::error::{Error, Result};
 /// for small ones. Found by `tests/c/memory_limits.c`, as are the bytes that callers ask for (docs/design/memory.md).
 const SLACK: f64 = (8 << 20) as f64;
 
+/// The least number of bytes, with their slack, for which the limits are looked up. That takes about 0.1 ms, as long as a
+/// small call.
+const FEWEST_BYTES: f64 = 3.0 * (1 << 20) as f64;
+
 /// Refuses with [`Error::TooLarge`] when `bytes` are more than the machine, the process's limit of address space and
 /// its control groups (those of a container, say) can give now. `argument` is the option that asks for them and `what`
 /// names their use: "3000000 samples".
 ///
-/// Nothing is refused where the operating system does not tell the limit (only Linux is asked), except on WebAssembly,
-/// where a failed allocation would abort the program: there, memory that cannot be reserved at once is refused.
-pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
+/// Less than 1 MiB is not refused, nor is anything where the operating system does not tell the limit (only Linux is asked),
+/// except on WebAssembly, where a failed allocation would abort the program: there, memory that cannot be reserved at once is
+/// refused.
+pub fn require(bytes: f64, argument: &'static str, what: &str) -> Result<()> {
     let bytes = bytes + (2.0 * bytes).min(SLACK);
     if !can_be_reserved(bytes) {
         return Err(Error::too_large(
@@ -22,12 +27,20 @@ pub(crate) fn require(bytes: f64, argument: &'static str, what: &str) -> Result<
             format!("{what} need {bytes:.2e} bytes, which WebAssembly cannot give"),
         ));
     }
+    if bytes < FEWEST_BYTES {
+        return Ok(());
+    }
     match available() {
         Some(limit) if bytes > limit => {
             Err(Error::too_large(argument, format!("{what} need {}, {} are available", size(bytes), size(limit))))
         }
         _ => Ok(()),
     }
+}
+
+/// Refuses more points than fit in memory, of so many bytes each at the peak.
+pub fn require_points(argument: &'static str, count: usize, bytes: f64) -> Result<()> {
+    require(bytes * count as f64, argument, &format!("{count} points"))
 }
 
 /// A number of bytes for people, in the unit in which two sizes that differ by a hundredth look different.
@@ -49,7 +62,7 @@ fn can_be_reserved(bytes: f64) -> bool {
 }
 
 /// The bytes of memory that are available without swapping, where the operating system tells.
-pub(crate) fn available() -> Option<f64> {
+pub fn available() -> Option<f64> {
     let machine = read("/proc/meminfo").and_then(|table| entry(&table, "MemAvailable:"));
     [machine, address_space(), control_groups(Path::new("/sys/fs/cgroup"))].into_iter().flatten().reduce(f64::min)
 }
@@ -67,7 +80,7 @@ fn entry(table: &str, name: &str) -> Option<f64> {
 }
 
 /// True if the process has a limit of address space.
-pub(crate) fn has_address_limit() -> bool {
+pub fn has_address_limit() -> bool {
     address_limit().is_some()
 }
 
@@ -107,7 +120,7 @@ mod tests {
 
     #[test]
     fn more_than_any_machine_has_is_refused_and_a_little_is_not() {
-        assert!(require(1e6, "radius", "a few samples").is_ok());
+        assert!(require(1e6, "radius", "a few samples").is_ok() && require(2e6, "radius", "some samples").is_ok());
         if cfg!(target_os = "linux") {
             let Err(Error::TooLarge { argument, reason }) = require(1e18, "radius", "very many samples") else {
                 panic!("an exabyte was granted")

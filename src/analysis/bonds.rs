@@ -2,10 +2,12 @@
 
 use glam::DVec2;
 
+use crate::analysis::BYTES_PER_TRIANGULATED_POINT;
 use crate::error::Result;
 use crate::geometry::{Delaunay, Frame};
 use crate::job::{Context, Job, Progress, chunks};
 use crate::math::{atan2, direction};
+use crate::memory;
 use crate::points::Domain;
 
 /// The bond order ψ6 of a set (Nelson and Halperin 1979, "Dislocation-mediated melting in two dimensions"): the mean
@@ -21,12 +23,14 @@ use crate::points::Domain;
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn bond_order(context: &Context, domain: &Domain, points: &[[f32; 2]], progress: Option<&Progress>) -> Result<f64> {
     domain.check_set(points)?;
     if points.is_empty() {
         return Ok(0.0);
     }
+    memory::require_points("positions", points.len(), BYTES_PER_TRIANGULATED_POINT)?;
     let frame = Frame::new(*domain, points.len());
     context.run(progress, |job| {
         let delaunay = Delaunay::new(&job.part(0.0, 0.8), &frame, frame.enter(points).into_iter())?;

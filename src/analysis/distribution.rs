@@ -18,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::index::{Entry, SortedGrid};
 use crate::job::{Context, Progress, chunks_of};
 use crate::math::side;
+use crate::memory;
 use crate::points::{Boundary, Domain};
 
 /// The largest number of bins.
@@ -26,6 +27,9 @@ pub const MAX_BINS: usize = 1 << 16;
 /// The side of a cell of the search, in mean spacings: larger ones hold more points that are too far away, smaller ones
 /// take longer to walk through.
 const CELL: f64 = 1.5;
+
+/// The most bytes per point, in the plane and in space.
+const BYTES_PER_POINT: [f64; 2] = [30.0, 38.0];
 
 /// The pairs of a set, or of several, by their distance.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +47,9 @@ pub struct RadialDistribution {
 /// # Errors
 /// [`Error::InvalidArgument`] for an invalid domain, for points outside it and for fewer than two (`positions`), for `bins`
 /// outside of 1 to [`MAX_BINS`], and for a `reach` that is not above 0, so small that a bin has no area in `f64`, or above
-/// half the width or height of the domain; [`Error::Cancelled`].
+/// half the width or height of the domain;
+/// [`Error::TooLarge`] for more points than memory holds;
+/// [`Error::Cancelled`].
 pub fn radial_distribution(
     context: &Context,
     domain: &Domain,
@@ -118,6 +124,7 @@ fn count_pairs<const D: usize>(
         Boundary::Periodic => 1.0,
         Boundary::Bounded => 1.0 / (0..D).map(|axis| 1.0 - offset[axis].abs() / extent[axis]).product::<f64>(),
     };
+    memory::require_points("positions", points.len(), BYTES_PER_POINT[D - 2])?;
     let cell = CELL * side::<D>(domain.content() / points.len() as f64);
     let grid = SortedGrid::new(*domain, points.iter().map(|point| point.map(f64::from)), cell);
     // Many bins take time of their own; many points, perhaps, since most may be in one cell.

@@ -1,5 +1,6 @@
 //! The figures of a set of the plane, measured together: its points are triangulated once for all figures that need it.
 
+use crate::analysis::BYTES_PER_TRIANGULATED_POINT;
 use crate::analysis::bonds::mean_order;
 use crate::analysis::coverage::covering_radius;
 use crate::analysis::spacing::nearest_distances;
@@ -7,6 +8,7 @@ use crate::analysis::triangles::{TriangleStatistics, triangles_of};
 use crate::error::Result;
 use crate::geometry::{Delaunay, Frame};
 use crate::job::{Context, Job, Progress};
+use crate::memory;
 use crate::points::Domain;
 
 /// The figures of a set of the plane.
@@ -29,6 +31,7 @@ pub struct Figures {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn figures_2d(
     context: &Context,
@@ -37,6 +40,7 @@ pub fn figures_2d(
     progress: Option<&Progress>,
 ) -> Result<Figures> {
     domain.check_set(points)?;
+    memory::require_points("positions", points.len(), BYTES_PER_TRIANGULATED_POINT)?;
     context.run(progress, |job| {
         let nearest = nearest_distances(&job.part(0.0, 0.1), domain, points)?;
         let covering_radius = covering_radius(&job.part(0.1, 0.5), domain, points)?;

@@ -18,6 +18,9 @@ use crate::index::Weights;
 use crate::mesh::Mesh;
 use crate::rng::{Draw, Rng};
 
+/// The most bytes per point of a set of the plane that is triangulated, with its triangles and distances.
+const BYTES_PER_TRIANGULATED_POINT: f64 = 440.0;
+
 /// A mesh from which points are drawn uniformly by area.
 struct AreaSampler<'a> {
     mesh: &'a Mesh,

@@ -6,10 +6,14 @@ use crate::check;
 use crate::error::Result;
 use crate::index::{Entry, SortedGrid};
 use crate::job::{Context, Job, Progress, chunks_of};
+use crate::memory;
 use crate::points::Domain;
 
 /// The points of a task: few, since most may be in one cell of the grid.
 const TASK: usize = 256;
+
+/// The most bytes per point.
+const BYTES_PER_POINT: f64 = 86.0;
 
 /// The figures of a set in a cuboid, in `f64` from the floats, around the torus on a periodic domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +54,9 @@ impl SpaceFigures {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain, for points outside it (`positions`) and for
-/// a `radius` that is negative or not finite; [`Error::Cancelled`](crate::Error::Cancelled).
+/// a `radius` that is negative or not finite;
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
+/// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn figures_3d(
     context: &Context,
     domain: &Domain<3>,
@@ -60,6 +66,7 @@ pub fn figures_3d(
 ) -> Result<SpaceFigures> {
     check::from_zero("radius", radius)?;
     domain.check_set(points)?;
+    memory::require_points("positions", points.len(), BYTES_PER_POINT)?;
     context.run(progress, |job| {
         let nearest = nearest_distances(&job.part(0.0, 0.2), domain, points)?;
         let smallest = nearest.iter().copied().fold(f64::INFINITY, f64::min);

@@ -5,10 +5,15 @@ use crate::check;
 use crate::error::Result;
 use crate::index::{SortedGrid, smallest_distance};
 use crate::job::{Context, Job, Progress, chunks_of};
+use crate::memory;
 use crate::points::Domain;
 
 /// The points of a task: so few that a call can be cancelled soon even where most points are in one cell of the grid.
 const TASK: usize = 256;
+
+/// The most bytes per point of the plane, with its distance, and per point of space.
+const BYTES_PER_POINT: f64 = 46.0;
+const BYTES_PER_POINT_OF_SPACE: f64 = 28.0;
 
 /// The distance of each point of the plane to its nearest neighbour; infinite for a point that is alone.
 ///
@@ -16,6 +21,7 @@ const TASK: usize = 256;
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn nearest_distances_2d(
     context: &Context,
@@ -24,6 +30,7 @@ pub fn nearest_distances_2d(
     progress: Option<&Progress>,
 ) -> Result<Vec<f64>> {
     domain.check_set(points)?;
+    memory::require_points("positions", points.len(), BYTES_PER_POINT)?;
     context.run(progress, |job| nearest_distances(job, domain, points))
 }
 
@@ -113,8 +120,10 @@ pub fn nearest_histogram_2d(domain: &Domain, nearest: &[f64], reach: f64, bins: 
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite (`positions`);
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn smallest_distance_3d(context: &Context, positions: &[[f32; 3]], progress: Option<&Progress>) -> Result<f64> {
     check::finite("positions", "position", positions)?;
+    memory::require_points("positions", positions.len(), BYTES_PER_POINT_OF_SPACE)?;
     context.run(progress, |job| smallest_distance(job, positions))
 }

@@ -2,9 +2,11 @@
 
 use glam::DVec2;
 
+use crate::analysis::BYTES_PER_TRIANGULATED_POINT;
 use crate::error::Result;
 use crate::geometry::{Delaunay, Frame, Site};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
+use crate::memory;
 use crate::mesh::exact;
 use crate::points::{Boundary, Domain};
 
@@ -62,6 +64,7 @@ impl Triangle {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn delaunay_triangles(
     context: &Context,
@@ -77,6 +80,7 @@ fn triangulate(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<Vec<Tr
     if points.is_empty() {
         return Ok(Vec::new());
     }
+    memory::require_points("positions", points.len(), BYTES_PER_TRIANGULATED_POINT)?;
     let frame = Frame::new(*domain, points.len());
     let positions = frame.enter(points);
     let delaunay = Delaunay::new(&job.part(0.0, 0.9), &frame, positions.iter().copied())?;

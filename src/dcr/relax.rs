@@ -1,7 +1,7 @@
 //! Relaxation in the plane at a constant density: its options, and the call.
 
 use crate::dcr::law::Neighbourhood;
-use crate::dcr::relaxation::{DelaunayOptions, Limits, Observer, Report, relax_set, require_memory};
+use crate::dcr::relaxation::{DelaunayOptions, Limits, Observer, Report, relax_set, require_points};
 use crate::dcr::thesis::{Thesis, ThesisRelaxation};
 use crate::dcr::uniform::UniformRelaxation;
 use crate::error::{Error, Result};
@@ -175,7 +175,7 @@ pub fn relax_observed(
         (Method::Thesis(_), Neighbourhood::Delaunay, Boundary::Periodic) => BYTES_PER_THESIS_POINT,
         (Method::Thesis(_), Neighbourhood::Delaunay, Boundary::Bounded) => BYTES_PER_MIRRORED_THESIS_POINT,
     };
-    require_memory("positions", points.len(), bytes)?;
+    require_points("positions", points.len(), bytes)?;
     match &options.method {
         Method::Momentum => {
             let mut set = UniformRelaxation::new(domain, neighbourhood, seed, points);

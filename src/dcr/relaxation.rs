@@ -12,7 +12,7 @@
 use crate::error::{Error, Result};
 use crate::index::Grid2;
 use crate::job::{Context, Job, Progress, chunks};
-use crate::memory;
+pub use crate::memory::require_points;
 use crate::points::Domain;
 use crate::setters::setters;
 
@@ -368,11 +368,6 @@ fn smallest_distance(job: &Job, domain: &Domain, points: &[[f32; 2]]) -> Result<
         chunks.range(chunk).map(squared).fold(f64::INFINITY, f64::min)
     })?;
     Ok(nearest.into_iter().fold(f64::INFINITY, f64::min).sqrt())
-}
-
-/// Refuses more points than fit in memory, of so many bytes each at the peak.
-pub fn require_memory(argument: &'static str, count: usize, bytes: f64) -> Result<()> {
-    memory::require(bytes * count as f64, argument, &format!("{count} points"))
 }
 
 #[cfg(test)]

@@ -21,10 +21,6 @@ use crate::{maximal, memory};
 
 pub use crate::kdrt::cache::Cached;
 
-/// The number of samples from which on the available memory is checked: the query takes about 0.1 ms, as long as making a
-/// small window.
-const FEWEST_REFUSED: f64 = 65_536.0;
-
 /// The most bytes that a sample takes: in the result and in the windows being made.
 pub const BYTES_PER_SAMPLE: f64 = 9.5;
 
@@ -33,9 +29,6 @@ const BYTES_PER_GIVEN: f64 = 70.0;
 
 /// Refuses samples that do not fit in memory beside `given` ones. `argument` is the one that asks for them.
 pub fn require(samples: f64, bytes_per_sample: f64, given: usize, argument: &'static str) -> Result<()> {
-    if samples + (given as f64) < FEWEST_REFUSED {
-        return Ok(());
-    }
     let bytes = samples * bytes_per_sample + given as f64 * BYTES_PER_GIVEN;
     memory::require(bytes, argument, &format!("about {samples:.0} samples"))
 }

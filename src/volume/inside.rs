@@ -21,7 +21,7 @@ use crate::simd::Lanes;
 use crate::volume::grid::Grid;
 use crate::volume::search::Centre;
 use crate::volume::shape::{Shape, Voxels};
-use crate::volume::shell::{Share, Shell, Thickness};
+use crate::volume::shell::{Cells, Share, Shell, Thickness};
 use crate::volume::voxels::{Level, Voxel, VoxelBox};
 
 /// The error of coordinates in a block, in radii.
@@ -277,11 +277,10 @@ impl Inside<'_> {
 
 impl Shape for Inside<'_> {
     #[inline(always)]
-    fn cells<L: Lanes>(&mut self, _: L, grid: &Grid, open: Vec<Voxel>) -> Voxels {
+    fn cells<L: Lanes>(&mut self, _: L, grid: &Grid, mut open: Vec<Voxel>) -> Voxels {
         let (cells, counts) = (grid.cells(), grid.counts());
         self.side = std::array::from_fn(|axis| 2.0 * self.half[axis] / counts[axis] as f64);
-        let shares = self.shell.as_ref().map(|shell| shell.cells(grid, self.side, self.half));
-        if shares.as_ref().is_some_and(|shares| shares.iter().all(|&share| share == Share::None)) {
+        if self.shell.as_ref().is_some_and(|shell| shell.is_beyond(self.half)) {
             return Voxels::default();
         }
         self.gather();
@@ -289,12 +288,17 @@ impl Shape for Inside<'_> {
         self.bin(grid);
         let mut voxels = Voxels::default();
         self.flood_cells(grid);
+        open.retain(|voxel| self.known[voxel.cell as usize][1] != u64::MAX);
+        let Self { side, half, .. } = *self;
+        if let Some(shell) = &mut self.shell {
+            shell.sort_cells(Cells { counts, side, half }, &open);
+        }
         for voxel in open {
             let cell = voxel.cell as usize;
-            let share = shares.as_ref().map_or(Share::All, |shares| shares[cell]);
+            let share = self.shell.as_ref().map_or(Share::All, |shell| shell.of_cell(cell));
             if share == Share::All && self.known[cell][0] == u64::MAX {
                 voxels.inside.push(voxel);
-            } else if share != Share::None && self.known[cell][1] != u64::MAX {
+            } else if share != Share::None {
                 voxels.cut.push(voxel);
             }
         }
@@ -310,11 +314,14 @@ impl Shape for Inside<'_> {
         let [x, y, z] = level.part_halves;
         let side = 2.0 * x.max(y).max(z);
         let small = side <= self.tolerance;
-        if let Some(shell) = &self.shell {
+        // What is not divided any more is dropped if it is cut.
+        let is_last = small || f64::from(side) * self.lattice.radius < LAST;
+        if let Some(shell) = &mut self.shell {
             let [inside, _] = self.known[cell];
             // Only the inner border of the shell cuts it.
             if inside == u64::MAX || part.is_some_and(|part| inside >> part & 1 == 1) {
-                return shell.parts(level, centre, open, small);
+                let around = shell.distances_of_cell(grid.place(cell));
+                return shell.parts(&around, level, centre, open, is_last);
             }
         }
         let of_cell = level.counts == [1; 3];
@@ -324,8 +331,8 @@ impl Shape for Inside<'_> {
             self.find_parts(lanes, &parts, cell);
         }
         let mut cut = self.near_parts(lanes, &parts, cell, part);
-        // What is not divided any more is dropped: only where a triangle meets it.
-        if small || f64::from(side) * self.lattice.radius < LAST {
+        if is_last {
+            // Only where a triangle meets it.
             cut = cut & !open | self.met_parts(lanes, &parts, cell, part, cut & open);
         }
         let free = level.all & !cut;
@@ -343,9 +350,10 @@ impl Shape for Inside<'_> {
             self.known[cell] = [inside, outside];
         }
         let [inside, cut] = [inside & open, if small { 0 } else { cut & open }];
-        match &self.shell {
-            Some(shell) if inside | cut != 0 => {
-                let [whole, partly] = shell.parts(level, centre, inside | cut, small);
+        match &mut self.shell {
+            Some(shell) if inside | cut != 0 && shell.of_cell(cell) != Share::All => {
+                let around = shell.distances_of_cell(grid.place(cell));
+                let [whole, partly] = shell.parts(&around, level, centre, inside | cut, is_last);
                 [inside & whole, inside & partly | cut & (whole | partly)]
             }
             _ => [inside, cut],

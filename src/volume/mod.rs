@@ -16,6 +16,7 @@ mod blocks;
 mod body;
 mod classes;
 mod clip;
+mod distances;
 mod exposed;
 mod fill;
 mod grid;

@@ -5,17 +5,27 @@
 //! does by more than half its diagonal; all other boxes are cut. Those of which no side is longer than the tolerance are dropped, as
 //! at the surface (`inside.rs`): an open place of the shell lies within a diagonal of its border.
 //!
-//! The nearest triangle of the centre of a voxel bounds the distances of its parts from both sides; the tree is asked for those of which
-//! that is not enough.
+//! The corners of a cell, which cells share, bound the distances in it from both sides (`distances.rs`). Parts that are divided further
+//! may count as cut though they are not, if the bounds are close. Where cut parts are dropped, or the bounds are loose, the corners of
+//! the voxel itself are asked for, and for the few parts of which that is not enough the tree.
 
 use crate::interior::Interior;
 use crate::math::square;
 use crate::plane::{Lattice, Rect};
-use crate::volume::grid::Grid;
-use crate::volume::voxels::Level;
+use crate::volume::distances::{Corner, Distances, between, number_along};
+use crate::volume::voxels::{Level, Voxel};
 
 /// Distances are right to this share of the diagonal of the box around the mesh (`interior/nearest.rs`).
 pub const ERROR: f64 = 1e-7;
+
+/// The longest side of a box of cells, in cells, that is not halved any more.
+const SMALL: usize = 2;
+
+/// The parts of a voxel for which its own corners are asked for: each of these is a question to the tree, as is each part.
+const MANY: u32 = 8;
+
+/// Bounds of distances are close if they differ by no more than this many half diagonals of a part.
+const CLOSE: f64 = 2.0;
 
 /// The part of a box that lies in a shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +60,19 @@ pub struct Shell<'a> {
     radius: f64,
     /// In radii, by which boxes are wider on all sides.
     margin: f64,
+    cells: Cells,
+    shares: Vec<Share>,
+    /// The corners of cells, as far as they were asked for: x is the fastest.
+    corners: Vec<Option<Corner>>,
+}
+
+/// The cells of a region, in radii.
+#[derive(Clone, Copy, Default)]
+pub struct Cells {
+    pub counts: [usize; 3],
+    pub side: [f64; 3],
+    /// Half the sides of the region.
+    pub half: [f64; 3],
 }
 
 impl<'a> Shell<'a> {
@@ -65,7 +88,8 @@ impl<'a> Shell<'a> {
         let centre =
             |axis: usize| lattice.coordinate(axis, region.min[axis]) + 0.5 * f64::from(region.length(axis)) * unit;
         let (origin, radius) = (std::array::from_fn(centre), lattice.radius * unit);
-        Self { interior, thickness, origin, radius, margin: margin.into() }
+        let (cells, shares, corners) = Default::default();
+        Self { interior, thickness, origin, radius, margin: margin.into(), cells, shares, corners }
     }
 
     /// True if a place belongs to the shell.
@@ -73,37 +97,57 @@ impl<'a> Shell<'a> {
         self.thickness.holds(self.interior, position)
     }
 
-    /// The share of each cell of a grid that covers the region.
-    pub fn cells(&self, grid: &Grid, side: [f64; 3], half: [f64; 3]) -> Vec<Share> {
-        let mut shares = vec![Share::Some; grid.cells()];
-        self.share_cells(grid.counts(), side, half, [[0; 3], grid.counts()], &mut shares);
-        shares
+    /// True if no place of a region with these halves of its sides belongs to the shell.
+    pub fn is_beyond(&self, half: [f64; 3]) -> bool {
+        self.share([0.0; 3], half) == Share::None
     }
 
-    /// The same for a box of cells, which is halved until it is a cell or lies on one side.
-    fn share_cells(
-        &self,
-        counts: [usize; 3],
-        side: [f64; 3],
-        half: [f64; 3],
-        [from, to]: [[usize; 3]; 2],
-        shares: &mut [Share],
-    ) {
+    /// Finds the shares of some cells.
+    pub fn sort_cells(&mut self, cells: Cells, some: &[Voxel]) {
+        self.cells = cells;
+        let mut shares = vec![Share::None; cells.counts.iter().product()];
+        for voxel in some {
+            shares[voxel.cell as usize] = Share::Some;
+        }
+        self.sort_box([[0; 3], cells.counts], &mut shares);
+        self.shares = shares;
+    }
+
+    /// The share of one of these cells.
+    pub fn of_cell(&self, cell: usize) -> Share {
+        self.shares[cell]
+    }
+
+    /// Sorts the cells of a box, which is halved until it is small or lies on one side.
+    fn sort_box(&self, [from, to]: [[usize; 3]; 2], shares: &mut [Share]) {
+        let Cells { counts, side, half } = self.cells;
+        let row = |y: usize, z: usize| {
+            let first = (z * counts[1] + y) * counts[0];
+            first + from[0]..first + to[0]
+        };
+        let rows = (from[2]..to[2]).flat_map(|z| (from[1]..to[1]).map(move |y| (y, z)));
+        if rows.clone().all(|(y, z)| shares[row(y, z)].iter().all(|&share| share == Share::None)) {
+            return;
+        }
         let centre = std::array::from_fn(|k| 0.5 * (from[k] + to[k]) as f64 * side[k] - half[k]);
         let share = self.share(centre, std::array::from_fn(|k| 0.5 * (to[k] - from[k]) as f64 * side[k]));
         let longest = (0..3).max_by_key(|&k| to[k] - from[k]).unwrap_or_default();
-        if share == Share::Some && to[longest] - from[longest] > 1 {
-            let (mut below, mut above) = (to, from);
-            let middle = (from[longest] + to[longest]) / 2;
-            (below[longest], above[longest]) = (middle, middle);
-            self.share_cells(counts, side, half, [from, below], shares);
-            self.share_cells(counts, side, half, [above, to], shares);
-            return;
-        }
-        for z in from[2]..to[2] {
-            for y in from[1]..to[1] {
-                let row = (z * counts[1] + y) * counts[0];
-                shares[row + from[0]..row + to[0]].fill(share);
+        match share {
+            // The corners of the cells of a small box say more than their centres.
+            Share::Some if to[longest] - from[longest] <= SMALL => (),
+            Share::Some => {
+                let (mut below, mut above) = (to, from);
+                let middle = (from[longest] + to[longest]) / 2;
+                (below[longest], above[longest]) = (middle, middle);
+                self.sort_box([from, below], shares);
+                self.sort_box([above, to], shares);
+            }
+            _ => {
+                for (y, z) in rows {
+                    for of_cell in shares[row(y, z)].iter_mut().filter(|of_cell| **of_cell != Share::None) {
+                        *of_cell = share;
+                    }
+                }
             }
         }
     }
@@ -118,34 +162,90 @@ impl<'a> Shell<'a> {
         }
     }
 
-    /// Of some parts of a voxel those in the shell, and those that are cut, or none of these if cut parts are dropped.
-    pub fn parts(&self, level: &Level, centre: [f32; 3], among: u64, drops_cut: bool) -> [u64; 2] {
-        let thickness = self.thickness.distance;
-        let (middle, reach) = (self.place(centre.map(f64::from)), self.reach(level.halves.map(f64::from)));
-        let band = [thickness - reach, thickness + reach];
-        let Some((foot, squared)) = self.interior.nearest_in_band(middle, band) else { return [0; 2] };
-        if is_within(squared, band[0]) {
-            return [among, 0];
-        }
-        let (distance, reach) = (squared.sqrt(), self.reach(level.part_halves.map(f64::from)));
+    /// Of some parts of a voxel those in the shell, and those that may be cut, or none of these if cut parts are dropped: those in the
+    /// shell are then all of which the distance of the centre says so. The voxel lies in a box with known corners.
+    pub fn parts(&self, around: &Distances, level: &Level, centre: [f32; 3], among: u64, drops_cut: bool) -> [u64; 2] {
+        let (thickness, reach) = (self.thickness.distance, self.reach(level.part_halves.map(f64::from)));
         let near = thickness - reach;
-        let far = if drops_cut { near } else { thickness + reach };
-        let (mut inside, mut cut, mut left) = (0, 0, among);
-        while left != 0 {
-            let bit = left & left.wrapping_neg();
-            let place = self.place(level.part_centre(centre, left.trailing_zeros()).map(f64::from));
-            left ^= bit;
-            if between(place, foot) <= near {
-                inside |= bit;
-            } else if far >= 0.0 && distance - between(place, middle) <= far {
-                match self.interior.nearest_in_band(place, [near, far]) {
-                    None => (),
-                    Some((_, squared)) if is_within(squared, near) => inside |= bit,
-                    Some(_) => cut |= bit,
+        let band = [near, if drops_cut { near } else { thickness + reach }];
+        let place = |bit: u32| self.place(level.part_centre(centre, bit).map(f64::from));
+        let (mut inside, mut cut, mut open) = (0, 0, among);
+        let mut sort = |around: &Distances, open: u64| {
+            let (mut left, mut unknown) = (open, 0);
+            while left != 0 {
+                let bit = left & left.wrapping_neg();
+                left ^= bit;
+                let [least, most] = around.at(place(bit.trailing_zeros()));
+                if most <= near {
+                    inside |= bit;
+                } else if least <= band[1] {
+                    let is_cut = near < least && most <= band[1];
+                    let is_close = most - least <= CLOSE * reach;
+                    if !drops_cut && (is_cut || is_close) { cut |= bit } else { unknown |= bit }
                 }
+            }
+            unknown
+        };
+        open = sort(around, open);
+        if open.count_ones() > MANY && level.counts != [1; 3] {
+            open = sort(&self.distances_around(centre.map(f64::from), level.halves.map(f64::from)), open);
+        }
+        while open != 0 {
+            let bit = open & open.wrapping_neg();
+            open ^= bit;
+            match self.interior.nearest_in_band(place(bit.trailing_zeros()), band) {
+                None => (),
+                Some((_, squared)) if is_within(squared, near) => inside |= bit,
+                Some(_) => cut |= bit,
             }
         }
         [inside, cut]
+    }
+
+    /// The distances at the corners of a cell.
+    pub fn distances_of_cell(&mut self, place: [u16; 3]) -> Distances {
+        let Cells { counts, side, half } = self.cells;
+        if self.corners.is_empty() {
+            self.corners = vec![None; counts.iter().map(|count| count + 1).product()];
+        }
+        let mut foot = [f64::INFINITY; 3];
+        let corners = std::array::from_fn(|corner| {
+            let number: [usize; 3] = std::array::from_fn(|axis| usize::from(place[axis]) + number_along(corner, axis));
+            let index = (number[2] * (counts[1] + 1) + number[1]) * (counts[0] + 1) + number[0];
+            let known = self.corners[index].unwrap_or_else(|| {
+                let along = |axis: usize| number[axis] as f64 * side[axis] - half[axis];
+                self.corner(std::array::from_fn(along), side, foot)
+            });
+            self.corners[index] = Some(known);
+            foot = known.foot;
+            known
+        });
+        let low = self.place(std::array::from_fn(|axis| f64::from(place[axis]) * side[axis] - half[axis]));
+        Distances { low, sides: side.map(|side| self.radius * side), corners }
+    }
+
+    /// The distances at the corners of a box.
+    fn distances_around(&self, centre: [f64; 3], halves: [f64; 3]) -> Distances {
+        let sides = halves.map(|half| 2.0 * half);
+        let low: [f64; 3] = std::array::from_fn(|axis| centre[axis] - halves[axis]);
+        let along = |corner: usize, axis: usize| low[axis] + number_along(corner, axis) as f64 * sides[axis];
+        let mut foot = [f64::INFINITY; 3];
+        let corners = std::array::from_fn(|corner| {
+            let known = self.corner(std::array::from_fn(|axis| along(corner, axis)), sides, foot);
+            foot = known.foot;
+            known
+        });
+        Distances { low: self.place(low), sides: sides.map(|side| self.radius * side), corners }
+    }
+
+    /// A corner of a box with these sides. If no place of the box can be cut, it is enough that it is far. A place of the surface that
+    /// may be near, or infinitely far, makes the search shorter.
+    fn corner(&self, place: [f64; 3], sides: [f64; 3], foot: [f64; 3]) -> Corner {
+        let (Thickness { distance, error }, place) = (self.thickness, self.place(place));
+        let far = (distance + 2.0 * self.reach(sides)).min(between(place, foot) + error);
+        let nearest = self.interior.nearest_in_band(place, [-1.0, far]);
+        let (foot, distance) = nearest.map_or(([f64::INFINITY; 3], far), |(foot, squared)| (foot, squared.sqrt()));
+        Corner { least: square((distance - error).max(0.0)), foot }
     }
 
     /// Half the diagonal of a box with its margin, and the error of a distance.
@@ -163,11 +263,6 @@ impl<'a> Shell<'a> {
 /// True if a squared distance is at most that of a distance, which may be below 0.
 fn is_within(squared: f64, distance: f64) -> bool {
     distance >= 0.0 && squared <= square(distance)
-}
-
-/// The distance of two places.
-fn between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| square(a[k] - b[k])).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
@@ -212,10 +307,16 @@ mod tests {
             for number in (0..600).map(|case| case % 3) {
                 let (level, centre) = (&levels[number], [0; 3].map(|_: i32| (18.0 * rng.unit() - 9.0) as f32));
                 let among = rng.bits();
+                // A cell around the voxel.
+                let beyond = [0; 3].map(|_: i32| 0.1 + rng.unit());
+                let around = shell.distances_around(
+                    centre.map(f64::from),
+                    std::array::from_fn(|k| f64::from(level.halves[k]) * (1.0 + beyond[k])),
+                );
                 let [[inside, cut], [whole, none]] =
-                    [false, true].map(|drops_cut| shell.parts(level, centre, among, drops_cut));
+                    [false, true].map(|drops_cut| shell.parts(&around, level, centre, among, drops_cut));
                 assert_eq!((inside & cut, (inside | cut) & !among, none), (0, 0, 0));
-                assert_eq!(whole, inside, "those that are cut are dropped");
+                assert_eq!((inside & !whole, whole & !(inside | cut)), (0, 0), "those that are cut are dropped");
                 for bit in (0..64).filter(|bit| among >> bit & 1 == 1) {
                     let part = level.part_centre(centre, bit);
                     let place = |rng: &mut Rng| -> [f64; 3] {
@@ -225,10 +326,15 @@ mod tests {
                     };
                     let (is_inside, is_cut) = (inside >> bit & 1 == 1, cut >> bit & 1 == 1);
                     seen[if is_inside { 0 } else { 1 + usize::from(is_cut) }] += 1;
-                    // A part that is cut is not far from the border.
-                    let diagonal = 1.01 * shell.reach(level.part_halves.map(f64::from));
-                    let is_far = (depth(part.map(f64::from)) - distance).abs() > diagonal;
-                    assert!(!is_cut || !is_far, "{number} {distance}");
+                    // A part that is cut is not far from the border, and one that is dropped meets it.
+                    let reach = shell.reach(level.part_halves.map(f64::from));
+                    let beyond = depth(part.map(f64::from)) - distance;
+                    assert!(!is_cut || beyond.abs() <= 1.01 * (1.0 + CLOSE) * reach, "{number} {distance}");
+                    let is_whole = whole >> bit & 1 == 1;
+                    assert!(
+                        if is_whole { beyond <= -0.9999 * reach } else { beyond > -1.0001 * reach },
+                        "{beyond} {reach}"
+                    );
                     for depth in [0; 3].map(|_: i32| depth(place(&mut rng))) {
                         assert!(is_cut || (depth <= distance) == is_inside, "{depth} {distance}");
                     }

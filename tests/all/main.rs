@@ -29,8 +29,6 @@ mod dcr_volume_inside;
 mod differential;
 mod editable;
 mod editable_plane;
-#[cfg(feature = "embree")]
-mod embree_traces;
 mod given;
 mod given_levels;
 mod hostile;
@@ -65,8 +63,6 @@ mod remesh;
 mod strips;
 mod surface_relax;
 mod thin;
-#[cfg(feature = "embree")]
-mod traces;
 mod volume;
 mod volume_adaptive;
 mod volume_classes;

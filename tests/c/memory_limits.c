@@ -1,6 +1,6 @@
 /* Under any limit of address space (ulimit -v) a call succeeds or is refused with AZULEJO_ERROR_TOO_LARGE: it never aborts
    the process. And it is not refused where 1.3 times its peak is free (MOST_ASKED). Each call runs in a child process,
-   whose limit leaves so much more than the child has.
+   whose limit leaves so much more than the child has; a refused call says what it needs, which is the next child's limit.
 
    memory_limits COUNT... prints the peaks of all calls for so many samples, or for as many as are tested if that is 0,
    and what they ask for: docs/design/memory.md.
@@ -622,11 +622,121 @@ static azulejo_status thinned_plane(const azulejo_context *context, size_t count
     return thinned_to(context, count, 2, 0, radius_of(count / 4, 1), AZULEJO_ORDER_ANY);
 }
 
+/* The analysis of so many random points. */
+static azulejo_plane_set cloud_in_plane(size_t count) {
+    azulejo_plane_set set;
+    ACCEPTED(azulejo_plane_set_init(&set, sizeof set));
+    set.positions = cloud;
+    set.count = count;
+    return set;
+}
+
+static azulejo_status measured(const azulejo_context *context, size_t count) {
+    const azulejo_plane_set set = cloud_in_plane(count);
+    azulejo_plane_report report;
+    ACCEPTED(azulejo_plane_report_init(&report, sizeof report));
+    return azulejo_plane_measure(context, &set, &report);
+}
+
+static azulejo_status gaps_of_plane(const azulejo_context *context, size_t count, double radius) {
+    const azulejo_plane_set set = cloud_in_plane(count);
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_plane_coverage(context, &set, radius, &report);
+}
+
+static azulejo_status coverage_of_plane(const azulejo_context *context, size_t count) {
+    return gaps_of_plane(context, count, 1);
+}
+
+/* No point covers more than itself. */
+static azulejo_status all_gaps_of_plane(const azulejo_context *context, size_t count) {
+    return gaps_of_plane(context, count, 1e-6);
+}
+
+static azulejo_status pairs_of_plane(const azulejo_context *context, size_t count) {
+    const azulejo_plane_set set = cloud_in_plane(count);
+    double density[16];
+    return azulejo_plane_radial_distribution(context, &set, 1, COUNT_OF(density), density);
+}
+
+static azulejo_space_set cloud_in_space(size_t count) {
+    azulejo_space_set set;
+    ACCEPTED(azulejo_space_set_init(&set, sizeof set));
+    set.positions = cloud;
+    set.count = count;
+    return set;
+}
+
+static azulejo_status measured_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(count);
+    azulejo_space_report report;
+    ACCEPTED(azulejo_space_report_init(&report, sizeof report));
+    return azulejo_space_measure(context, &set, 0, &report);
+}
+
+static azulejo_status coverage_of_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(count);
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_space_coverage(context, &set, 1, &report);
+}
+
+/* Of a few points that cover little, so that gaps have about so many places. */
+static azulejo_status gaps_of_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(8);
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_space_coverage(context, &set, 13 / cbrt((double)count), &report);
+}
+
+static azulejo_status distance_in_space(const azulejo_context *context, size_t count) {
+    double smallest;
+    return azulejo_space_smallest_distance(context, cloud, count, &smallest);
+}
+
+static azulejo_status coverage_of_mesh(const azulejo_context *context, size_t count) {
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_mesh_coverage(context, hilly, cloud, count, 1, &report);
+}
+
+static azulejo_status gaps_of_mesh(const azulejo_context *context, size_t count) {
+    azulejo_coverage_report report;
+    ACCEPTED(azulejo_coverage_report_init(&report, sizeof report));
+    return azulejo_mesh_coverage(context, cube, cloud, 8, 26 / sqrt((double)count), &report);
+}
+
+static azulejo_status uncovered_of_mesh(const azulejo_context *context, size_t count) {
+    double uncovered;
+    return azulejo_mesh_uncovered_fraction(context, hilly, cloud, count, 0.01, 1000, 0, &uncovered);
+}
+
+/* So many frequencies along each axis that they are as many as the points. */
+static azulejo_status spectrum_of_plane(const azulejo_context *context, size_t count) {
+    const azulejo_plane_set set = cloud_in_plane(count);
+    azulejo_spectrum *spectrum = NULL;
+    const azulejo_status status = azulejo_spectrum_create(context, &set, (uint32_t)sqrt((double)count), 1, &spectrum);
+    azulejo_spectrum_free(spectrum);
+    return status;
+}
+
+static azulejo_status spectrum_of_space(const azulejo_context *context, size_t count) {
+    const azulejo_space_set set = cloud_in_space(count);
+    static azulejo_annulus annuli[256];
+    size_t found;
+    return azulejo_space_spectrum(context, &set, 1, 1, 0.05, annuli, COUNT_OF(annuli), sizeof *annuli, &found);
+}
+
 /* The most that a call asks for, over its peak, beside some MB for tables. More where arrays that double make peaks uneven,
    and where radii vary: how finely that cuts triangles is only known afterwards. */
 #define MOST_ASKED 1.3
 #define SLACK ((size_t)4 << 20)
 #define MOST_ASKED_UNEVENLY 1.7
+
+/* The first limit, and the most demands of a call that asks again when it knows more. */
+#define LEAST ((size_t)1 << 20)
+#define MOST_DEMANDS 20
 
 /* Around given samples it is not known before how many of them a block has. */
 #define MOST_ASKED_AROUND 2
@@ -638,70 +748,83 @@ static const struct {
     size_t count;
     double most;
 } calls[] = {
-    {"maximal", maximal, 500000, MOST_ASKED},
+    {"maximal", maximal, 250000, MOST_ASKED},
     {"volume", volume, 1000000, MOST_ASKED},
     {"volume, tiled", volume_tiled, 1000000, MOST_ASKED},
     {"volume, adaptive", volume_adaptive, 500000, MOST_ASKED_UNEVENLY},
     {"volume, inside a mesh", volume_inside, 500000, MOST_ASKED_AROUND},
-    {"volume, shell of a mesh", volume_shell, 500000, MOST_ASKED_AROUND},
+    {"volume, shell of a mesh", volume_shell, 250000, MOST_ASKED_AROUND},
     {"volume, progressive", volume_progressive, 400000, MOST_ASKED_UNEVENLY},
     {"volume, count", volume_count, 400000, MOST_ASKED_UNEVENLY},
     {"volume, count, progressive", volume_count_progressive, 400000, MOST_ASKED_UNEVENLY},
     {"volume, given samples", volume_around, 500000, MOST_ASKED_AROUND},
     {"volume, many given samples", volume_around_many, 25000, MOST_ASKED_AROUND},
     {"plane, tiled", tiled, 8000000, MOST_ASKED},
-    {"plane, not tiled", not_tiled, 600000, MOST_ASKED},
+    {"plane, not tiled", not_tiled, 300000, MOST_ASKED},
     {"plane, given samples", plane_around, 2000000, MOST_ASKED},
     {"plane, progressive", plane_progressive, 1000000, MOST_ASKED},
     {"plane, count", plane_count, 6000000, MOST_ASKED},
     {"plane, count, progressive", plane_count_progressive, 1000000, MOST_ASKED},
     {"plane, window", window, 8000000, MOST_ASKED},
     {"plane, 2 classes", plane_classes, 1000000, MOST_ASKED},
-    {"plane, 4 classes", plane_4_classes, 1000000, MOST_ASKED},
-    {"volume, classes", volume_classes, 500000, MOST_ASKED},
+    {"plane, 4 classes", plane_4_classes, 500000, MOST_ASKED},
+    {"volume, classes", volume_classes, 250000, MOST_ASKED},
     {"volume, equal classes", volume_equal_classes, 250000, MOST_ASKED},
-    {"plane, 2 classes, progressive", plane_classes_progressive, 1000000, MOST_ASKED_UNEVENLY},
+    {"plane, 2 classes, progressive", plane_classes_progressive, 500000, MOST_ASKED_UNEVENLY},
     {"plane, 2 classes, narrow", plane_classes_narrow, 100000, MOST_ASKED},
-    {"merge", merged, 2000000, MOST_ASKED},
-    {"mesh", mesh_plain, 600000, MOST_ASKED},
+    {"merge", merged, 1000000, MOST_ASKED},
+    {"mesh", mesh_plain, 300000, MOST_ASKED},
     {"mesh, 524,288 triangles", mesh_hilly, 100000, MOST_ASKED_UNEVENLY},
-    {"mesh, 2 iterations", mesh_iterated, 500000, MOST_ASKED},
-    {"mesh, progressive", mesh_progressive, 300000, MOST_ASKED_UNEVENLY},
-    {"mesh, count", mesh_count, 500000, MOST_ASKED},
-    {"mesh, count, progressive", mesh_count_progressive, 250000, MOST_ASKED},
-    {"mesh, given samples", mesh_around, 600000, MOST_ASKED},
-    {"mesh, many given samples", mesh_around_many, 600000, MOST_ASKED},
-    {"mesh, 2 classes", mesh_classes, 600000, MOST_ASKED},
-    {"mesh, 2 classes, progressive", mesh_classes_progressive, 200000, MOST_ASKED_UNEVENLY},
-    {"mesh, 2 classes, density", mesh_classes_density, 300000, MOST_ASKED_UNEVENLY},
-    {"mesh, 2 classes, density, progressive", mesh_classes_density_progressive, 200000, MOST_ASKED_UNEVENLY},
-    {"mesh, handle", of_handle, 600000, MOST_ASKED},
-    {"mesh, edited", edited, 300000, MOST_ASKED},
-    {"mesh, region", in_region, 400000, MOST_ASKED},
-    {"mesh, radii of vertices", varying, 300000, MOST_ASKED_UNEVENLY},
-    {"mesh, radii of vertices, progressive", varying_progressive, 200000, MOST_ASKED_UNEVENLY},
+    {"mesh, 2 iterations", mesh_iterated, 250000, MOST_ASKED},
+    {"mesh, progressive", mesh_progressive, 150000, MOST_ASKED_UNEVENLY},
+    {"mesh, count", mesh_count, 250000, MOST_ASKED},
+    {"mesh, count, progressive", mesh_count_progressive, 125000, MOST_ASKED},
+    {"mesh, given samples", mesh_around, 300000, MOST_ASKED},
+    {"mesh, many given samples", mesh_around_many, 300000, MOST_ASKED},
+    {"mesh, 2 classes", mesh_classes, 300000, MOST_ASKED},
+    {"mesh, 2 classes, progressive", mesh_classes_progressive, 100000, MOST_ASKED_UNEVENLY},
+    {"mesh, 2 classes, density", mesh_classes_density, 150000, MOST_ASKED_UNEVENLY},
+    {"mesh, 2 classes, density, progressive", mesh_classes_density_progressive, 100000, MOST_ASKED_UNEVENLY},
+    {"mesh, handle", of_handle, 300000, MOST_ASKED},
+    {"mesh, edited", edited, 150000, MOST_ASKED},
+    {"mesh, region", in_region, 200000, MOST_ASKED},
+    {"mesh, radii of vertices", varying, 150000, MOST_ASKED_UNEVENLY},
+    {"mesh, radii of vertices, progressive", varying_progressive, 100000, MOST_ASKED_UNEVENLY},
     {"mesh, density of vertices", density_by_vertex, 300000, MOST_ASKED_UNEVENLY},
     {"mesh, density of a picture", density_by_picture, 300000, MOST_ASKED_UNEVENLY},
-    {"mesh, density of vertices, progressive", density_progressive, 200000, MOST_ASKED_UNEVENLY},
-    {"relax", relaxed, 250000, MOST_ASKED},
-    {"relax, nearest", relaxed_nearest, 500000, MOST_ASKED_UNEVENLY},
-    {"relax, thesis", relaxed_thesis, 250000, MOST_ASKED},
-    {"relax, bounded", relaxed_bounded, 250000, MOST_ASKED},
-    {"relax, bounded, nearest", relaxed_bounded_nearest, 250000, MOST_ASKED_UNEVENLY},
-    {"relax, bounded, thesis", relaxed_bounded_thesis, 250000, MOST_ASKED},
-    {"relax, correlation", relaxed_to_correlation, 250000, MOST_ASKED},
-    {"relax, 2 classes", relaxed_classes, 200000, MOST_ASKED},
-    {"relax, 2 classes, bounded", relaxed_classes_bounded, 100000, MOST_ASKED},
+    {"mesh, density of vertices, progressive", density_progressive, 100000, MOST_ASKED_UNEVENLY},
+    {"relax", relaxed, 125000, MOST_ASKED},
+    {"relax, nearest", relaxed_nearest, 250000, MOST_ASKED_UNEVENLY},
+    {"relax, thesis", relaxed_thesis, 125000, MOST_ASKED},
+    {"relax, bounded", relaxed_bounded, 62500, MOST_ASKED},
+    {"relax, bounded, nearest", relaxed_bounded_nearest, 125000, MOST_ASKED_UNEVENLY},
+    {"relax, bounded, thesis", relaxed_bounded_thesis, 125000, MOST_ASKED},
+    {"relax, correlation", relaxed_to_correlation, 125000, MOST_ASKED},
+    {"relax, 2 classes", relaxed_classes, 100000, MOST_ASKED},
+    {"relax, 2 classes, bounded", relaxed_classes_bounded, 50000, MOST_ASKED},
     {"scatter", scattered, 300000, MOST_ASKED},
     {"relax, density", relaxed_density, 100000, MOST_ASKED},
     {"relax, density, bounded", relaxed_density_bounded, 60000, MOST_ASKED},
     {"relax, mesh", relaxed_on_mesh, 100000, MOST_ASKED},
-    {"relax, volume", relaxed_in_space, 250000, MOST_ASKED_UNEVENLY},
-    {"relax, inside a mesh", relaxed_inside, 250000, MOST_ASKED_UNEVENLY},
+    {"relax, volume", relaxed_in_space, 125000, MOST_ASKED_UNEVENLY},
+    {"relax, inside a mesh", relaxed_inside, 125000, MOST_ASKED_UNEVENLY},
     {"mask, 64 channels", masked, 2097152, MOST_ASKED},
     {"thin, 3-D, a tenth", thinned, 500000, MOST_ASKED},
     {"thin, 3-D, all in order", thinned_all, 500000, MOST_ASKED},
     {"thin, 2-D, radius", thinned_plane, 1000000, MOST_ASKED},
+    {"analysis, plane", measured, 125000, MOST_ASKED_UNEVENLY},
+    {"coverage, plane", coverage_of_plane, 250000, MOST_ASKED},
+    {"coverage, plane, all gaps", all_gaps_of_plane, 62500, MOST_ASKED_UNEVENLY},
+    {"pairs, plane", pairs_of_plane, 1000000, MOST_ASKED},
+    {"analysis, cuboid", measured_space, 250000, MOST_ASKED},
+    {"coverage, cuboid", coverage_of_space, 250000, MOST_ASKED},
+    {"coverage, cuboid, gaps", gaps_of_space, 250000, MOST_ASKED_UNEVENLY},
+    {"smallest distance, space", distance_in_space, 1000000, MOST_ASKED},
+    {"coverage, mesh", coverage_of_mesh, 250000, MOST_ASKED},
+    {"coverage, mesh, gaps", gaps_of_mesh, 250000, MOST_ASKED_UNEVENLY},
+    {"uncovered, mesh", uncovered_of_mesh, 1000000, MOST_ASKED},
+    {"spectrum, plane", spectrum_of_plane, 500000, MOST_ASKED},
+    {"spectrum, cuboid", spectrum_of_space, 125000, MOST_ASKED},
 };
 
 /* A hilly square of this many quads along a side. */
@@ -791,50 +914,61 @@ static int child(call make, size_t count, uint32_t threads, size_t bytes, outcom
 
 static double megabytes(size_t bytes) { return (double)bytes / (1 << 20); }
 
-/* A call under a limit, with as many bytes as this share of its peak on one thread. */
-static void limited(const char *name, call make, size_t count, uint32_t threads, double share, size_t peak) {
-    const size_t bytes = (size_t)(share * (double)peak);
+/* Makes a call in a child that may take so many bytes: it succeeds or is refused, and does not abort. */
+static int is_answered(size_t i, size_t count, uint32_t threads, size_t bytes, outcome *out) {
+    const int is_over = child(calls[i].make, count, threads, bytes, out);
+    if (CHECK(is_over && (out->status == AZULEJO_OK || out->status == AZULEJO_ERROR_TOO_LARGE))) return 1;
+    printf("    %s, %u threads: aborts with %.1f MB\n", calls[i].name, threads, megabytes(bytes));
+    return 0;
+}
+
+/* The bytes that a call lacked, as its message has them to a tenth of a MiB; half of what it had if it has none. */
+static size_t lacking(const outcome *refused, size_t bytes) {
+    const char *demand = strstr(refused->message, " need ");
+    double needed, available;
+    char units[2];
+    if (demand == NULL) return bytes / 2;
+    if (sscanf(demand, " need %lf %ciB, %lf %ciB", &needed, units, &available, units + 1) != 4) return bytes / 2;
+    if (units[0] == 'G') needed *= 1024;
+    if (units[1] == 'G') available *= 1024;
+    return (size_t)((needed - available + 0.1) * (1 << 20));
+}
+
+/* Makes a call with ever more memory, until it has what it asks for: with exactly that it succeeds, which it could not if
+   its peak were above. The bytes of that; none if it fails. */
+static size_t granted(size_t i, size_t count, uint32_t threads, outcome *out) {
+    size_t bytes = LEAST;
+    int demands;
+    for (demands = 0; demands < MOST_DEMANDS; demands++) {
+        if (!is_answered(i, count, threads, bytes, out)) return 0;
+        if (out->status == AZULEJO_OK) return bytes;
+        bytes += lacking(out, bytes);
+    }
+    CHECK(out->status == AZULEJO_OK);
+    printf("    %s: refused with %.1f MB: %s\n", calls[i].name, megabytes(bytes), out->message);
+    return 0;
+}
+
+/* A call asks for its peak at least, and not for too much more; with a part of that it is refused. Refusals come before
+   work, so that a row takes little more than one call. Two threads share one arena (child), and ask for what one asks or
+   more. */
+static void grid(size_t i) {
+    const size_t count = calls[i].count;
     outcome one;
-    const int is_over = child(make, count, threads, bytes, &one);
-    if (!CHECK(is_over && (one.status == AZULEJO_OK || one.status == AZULEJO_ERROR_TOO_LARGE)))
-        printf("    %s, %u threads: aborts with %.1f of %.1f MB\n", name, threads, megabytes(bytes), megabytes(peak));
+    const size_t bytes = granted(i, count, 1, &one), enough = (size_t)(calls[i].most * (double)one.peak) + SLACK;
+    if (bytes == 0) return;
+    if (bytes > enough && !CHECK(child(calls[i].make, count, 1, enough, &one) && one.status == AZULEJO_OK))
+        printf("    %s: refused with %.1f MB: %s\n", calls[i].name, megabytes(enough), one.message);
+    (void)is_answered(i, count, 2, bytes / 10 * 9, &one);
 }
 
-/* Two threads share one arena (child), and take what one takes or more. */
-static void grid(const char *name, call make, size_t count, double most) {
-    outcome free_one, one;
-    size_t enough;
-    if (!CHECK(child(make, count, 1, 0, &free_one) && free_one.status == AZULEJO_OK)) return;
-    limited(name, make, count, 1, 0.4, free_one.peak);
-    limited(name, make, count, 1, 0.9, free_one.peak);
-    limited(name, make, count, 2, 0.1, free_one.peak);
-    limited(name, make, count, 2, 0.7, free_one.peak);
-    enough = (size_t)(most * (double)free_one.peak) + SLACK;
-    if (!CHECK(child(make, count, 1, enough, &one) && one.status == AZULEJO_OK))
-        printf("    %s: refused with %.1f x %.1f MB: %s\n", name, most, megabytes(free_one.peak), one.message);
-}
-
-/* A row of the table: the peak, what the call said that it needs when it was given half of that, and their quotient. */
-static void measure(const char *name, call make, size_t count, uint32_t threads) {
-    outcome free_one, half;
-    const char *need;
-    double needed = 0;
-    char unit = 'M';
-    if (!child(make, count, threads, 0, &free_one) || free_one.status != AZULEJO_OK) {
-        printf("| %s | %zu | %u | %s |\n", name, count, threads, free_one.message);
-        return;
-    }
-    (void)child(make, count, threads, free_one.peak / 2, &half);
-    need = strstr(half.message, " need ");
-    if (need != NULL) (void)sscanf(need, " need %lf %c", &needed, &unit);
-    if (unit == 'G') needed *= 1024;
-    printf("| %s | %zu | %u | %.1f | %.1f | ", name, count, threads, megabytes(free_one.peak),
-           (double)free_one.peak / (double)count);
-    if (needed > 0) {
-        printf("%.1f | %.2f |\n", needed, needed / megabytes(free_one.peak));
-    } else {
-        printf("- | %s |\n", half.status == -1 ? "abort" : half.status == AZULEJO_OK ? "enough" : half.message);
-    }
+/* A row of the table: the peak, and what the call asked for over that. */
+static void measure(size_t i, size_t count, uint32_t threads) {
+    outcome one;
+    const size_t bytes = granted(i, count, threads, &one);
+    if (bytes == 0) return;
+    printf("| %s | %zu | %u | %.1f | %.1f | %.2f |\n", calls[i].name, count, threads, megabytes(one.peak),
+           (double)one.peak / (double)count, (double)bytes / (double)one.peak);
     fflush(stdout);
 }
 
@@ -846,18 +980,17 @@ int main(int argc, char **argv) {
 #endif
     size_t i;
     int k;
-    uint32_t threads;
     CHECK(used("VmSize") > 0);
+    if (!is_limited) return finish();
     prepare();
     for (k = 1; k < argc; k++) {
         const size_t count = (size_t)strtoul(argv[k], NULL, 10);
         for (i = 0; i < COUNT_OF(calls); i++) {
-            for (threads = 1; threads <= 2; threads++)
-                measure(calls[i].name, calls[i].make, count == 0 ? calls[i].count : count, threads);
+            measure(i, count == 0 ? calls[i].count : count, 1);
+            measure(i, count == 0 ? calls[i].count : count, 2);
         }
     }
-    for (i = 0; is_limited && argc == 1 && i < COUNT_OF(calls); i += getenv("AZULEJO_ROUNDS") ? 8 : 1)
-        grid(calls[i].name, calls[i].make, calls[i].count, calls[i].most);
+    for (i = 0; argc == 1 && i < COUNT_OF(calls); i += getenv("AZULEJO_ROUNDS") ? 8 : 1) grid(i);
     azulejo_mesh_free(cube);
     azulejo_mesh_free(hilly);
     azulejo_mesh_free(sheet);

@@ -410,11 +410,14 @@ fn surfaces() {
         }));
         assert!(report.depth > 0.0 && report.samples >= report.surface_samples && report.surface_samples > 3);
         assert_eq!(report.samples, count as u64);
-        options.thickness = 0.1;
-        let shell = read_and_free(made(|out| {
-            azulejo_volume_sample_inside(handle, solid.get(), &options, out, &raw mut report)
-        }));
-        assert!(shell > 3 && report.samples == shell as u64);
+        // It asks for many distances, which takes minutes there.
+        if !cfg!(miri) {
+            options.thickness = 0.1;
+            let shell = read_and_free(made(|out| {
+                azulejo_volume_sample_inside(handle, solid.get(), &options, out, &raw mut report)
+            }));
+            assert!(shell > 3 && report.samples == shell as u64);
+        }
         let (inside, fixed) = ([0.25f32, 0.25, 0.25, 0.5, 0.25, 0.25], [1u8, 0]);
         let mut options = defaults(azulejo_relax_inside_options_init);
         (options.fixed, options.fixed_count, options.max_iterations) = (fixed.as_ptr(), 2, 2);

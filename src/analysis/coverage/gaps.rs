@@ -15,6 +15,7 @@ use crate::error::Result;
 use crate::geometry::{Delaunay, Dual, Frame};
 use crate::index::{Entry, Grid2};
 use crate::job::{Job, chunks, chunks_of};
+use crate::memory;
 use crate::points::Domain;
 
 /// Circumcentres closer than this, in mean spacings, are one: copies of one on the other side of a torus, and those of
@@ -24,8 +25,12 @@ const SAME: f64 = 1e-6;
 /// The vertices of a task.
 const VERTICES: usize = 256;
 
+/// The most bytes per point, none of which is covered as far as the next one.
+const BYTES_PER_POINT: f64 = 740.0;
+
 /// The number of connected parts of the domain farther than `radius` from all points, of which there is at least one.
 pub(super) fn count(job: &Job, domain: &Domain, points: &[[f32; 2]], radius: f64) -> Result<usize> {
+    memory::require_points("radius", points.len(), BYTES_PER_POINT)?;
     let frame = Frame::new(*domain, points.len());
     let radius = radius / frame.spacing();
     let delaunay = Delaunay::new(&job.part(0.0, 0.7), &frame, frame.enter(points).into_iter())?;

@@ -6,6 +6,7 @@ use crate::analysis::coverage::gaps::DisjointSets;
 use crate::error::{Error, Result};
 use crate::job::Job;
 use crate::math::square;
+use crate::memory;
 
 /// Uncovered places within this share of the radius are of one gap; fragments are cut until none is half as long.
 pub(super) const LINK: f64 = 0.5;
@@ -16,12 +17,17 @@ const MAX_UNCOVERED: usize = 1 << 26;
 /// The number of places, or cells of them, that are grouped between two reports.
 const PLACES: u32 = 2048;
 
+/// The most uncovered fragments that are kept, and that memory holds at so many bytes each, in its cell and its group.
+pub(super) fn most_uncovered(bytes: f64) -> usize {
+    memory::available().map_or(MAX_UNCOVERED, |available| MAX_UNCOVERED.min((available / bytes) as usize))
+}
+
 /// Refuses so many uncovered fragments.
-pub(super) fn check_count(uncovered: usize) -> Result<()> {
-    if uncovered < MAX_UNCOVERED {
+pub(super) fn check_count(uncovered: usize, most: usize) -> Result<()> {
+    if uncovered < most {
         Ok(())
     } else {
-        Err(Error::too_large("radius", format!("leaves more than {MAX_UNCOVERED} fragments uncovered")))
+        Err(Error::too_large("radius", format!("leaves more than {most} fragments uncovered")))
     }
 }
 

@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::index::{Grid3, PointTree, SortedGrid};
 use crate::job::{Context, Job, Progress, chunks, chunks_of};
 use crate::math::{distance_squared, hypot};
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::plane::float_spacing;
 use crate::points::{Boundary, Domain};
@@ -27,6 +28,13 @@ pub const PRECISION: f64 = 1e-9;
 
 /// The cells of a task, each of which may become many.
 const TASK: usize = 512;
+
+/// The most bytes per point in the grid and the tree, in the plane and in space.
+const BYTES_PER_POINT: [f64; 2] = [66.0, 75.0];
+
+/// The most bytes of [`surface_uncovered_fraction`] per point and per triangle.
+const BYTES_PER_POINT_OF_GRID: f64 = 24.0;
+const BYTES_PER_TRIANGLE: f64 = 12.0;
 
 /// The coverage of a domain or a surface by disks of a radius around the points of a set.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +90,7 @@ pub fn coverage_2d(
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for an invalid domain and for points outside it (`positions`);
+/// [`Error::TooLarge`] for more points than memory holds;
 /// [`Error::Cancelled`].
 pub fn covering_radius_2d(
     context: &Context,
@@ -98,6 +107,7 @@ pub(super) fn covering_radius<const D: usize>(job: &Job, domain: &Domain<D>, poi
     if points.is_empty() {
         return Ok(f64::INFINITY);
     }
+    memory::require_points("positions", points.len(), BYTES_PER_POINT[D - 2])?;
     let nearest = Nearest::new(&job.part(0.0, 0.2), domain, points)?;
     let cells = SearchCells::about(domain, points.len());
     let tasks = chunks_of(cells.len(), TASK);
@@ -214,7 +224,9 @@ impl<const D: usize> SearchCell<D> {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a radius that is not positive and finite, for positions
-/// that are not finite and for no `probes`; [`Error::Cancelled`].
+/// that are not finite and for no `probes`;
+/// [`Error::TooLarge`] for more points than memory holds;
+/// [`Error::Cancelled`].
 pub fn surface_uncovered_fraction(
     context: &Context,
     mesh: &Mesh,
@@ -232,6 +244,9 @@ pub fn surface_uncovered_fraction(
     if mesh.area() == 0.0 {
         return Ok(0.0);
     }
+    let triangles = BYTES_PER_TRIANGLE * mesh.triangles().len() as f64;
+    let points = BYTES_PER_POINT_OF_GRID * positions.len() as f64;
+    memory::require(triangles + points, "positions", &format!("{} points", positions.len()))?;
     let surface = AreaSampler::new(mesh);
     let chunks = chunks(probes as usize);
     let mut uncovered = 0;

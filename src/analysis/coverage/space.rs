@@ -1,6 +1,6 @@
 //! Coverage of a cuboid, by cutting it into cells.
 
-use crate::analysis::coverage::groups::{DEPTH, LINK, check_count, group};
+use crate::analysis::coverage::groups::{DEPTH, LINK, check_count, group, most_uncovered};
 use crate::analysis::coverage::{Coverage, Nearest, SearchCell, SearchCells, covering_radius, length};
 use crate::check;
 use crate::error::Result;
@@ -13,6 +13,9 @@ use crate::psp::TOLERANCE;
 const TASK: usize = 512;
 const GATHERED: usize = 32;
 
+/// The most bytes per uncovered place.
+const BYTES_PER_PLACE: f64 = 110.0;
+
 /// Cells are cut until none that is uncovered reaches farther from its centre, in radii.
 const SMALLEST: f64 = 0.25 * LINK;
 
@@ -23,6 +26,7 @@ const SMALLEST: f64 = 0.25 * LINK;
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for an invalid domain and for points outside it (`positions`);
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn covering_radius_3d(
     context: &Context,
@@ -106,17 +110,18 @@ fn gather(job: &Job, nearest: &Nearest<3>, cells: &SearchCells<3>, radius: f64) 
         let uncovered = tasks.range(task).map(|cell| cells.get(cell)).filter(|cell| cell.is_uncovered(nearest, radius));
         uncovered.map(|cell| cell.least_parts(radius)).sum::<f64>()
     })?;
-    check_count(least.into_iter().sum::<f64>() as usize)?;
+    let most = most_uncovered(BYTES_PER_PLACE);
+    check_count(least.into_iter().sum::<f64>() as usize, most)?;
     let tasks = chunks_of(cells.len(), GATHERED);
     let mut uncovered = Vec::new();
     let task = |task: usize| {
         let mut found = Vec::new();
-        tasks.range(task).try_for_each(|cell| cells.get(cell).gather(nearest, radius, &mut found))?;
+        tasks.range(task).try_for_each(|cell| cells.get(cell).gather(nearest, radius, most, &mut found))?;
         Ok(found)
     };
     let keep = |found: Result<Vec<[f64; 3]>>| {
         uncovered.extend(found?);
-        check_count(uncovered.len())
+        check_count(uncovered.len(), most)
     };
     job.part(0.1, 1.0).stream(tasks.len(), task, keep)?;
     Ok(uncovered)
@@ -142,29 +147,29 @@ impl SearchCell<3> {
     }
 
     /// Appends a place of each uncovered part of it that is small enough to be of one gap.
-    fn gather(&self, nearest: &Nearest<3>, radius: f64, uncovered: &mut Vec<[f64; 3]>) -> Result<()> {
-        check_count(uncovered.len())?;
+    fn gather(&self, nearest: &Nearest<3>, radius: f64, most: usize, uncovered: &mut Vec<[f64; 3]>) -> Result<()> {
+        check_count(uncovered.len(), most)?;
         let offset = nearest.offset(self.centre);
         if self.bound(offset) <= radius * (1.0 + DEPTH) {
             Ok(())
         } else if length(offset) - self.reach() > radius {
-            self.gather_all(radius, uncovered)
+            self.gather_all(radius, most, uncovered)
         } else if self.reach() <= SMALLEST * radius {
             uncovered.extend(self.uncovered(nearest, radius));
             Ok(())
         } else {
-            self.parts(offset).try_for_each(|part| part.gather(nearest, radius, uncovered))
+            self.parts(offset).try_for_each(|part| part.gather(nearest, radius, most, uncovered))
         }
     }
 
     /// Appends places of all of it, none of which is covered.
-    fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f64; 3]>) -> Result<()> {
-        check_count(uncovered.len().saturating_add(self.least_parts(radius) as usize))?;
+    fn gather_all(&self, radius: f64, most: usize, uncovered: &mut Vec<[f64; 3]>) -> Result<()> {
+        check_count(uncovered.len().saturating_add(self.least_parts(radius) as usize), most)?;
         if self.reach() <= SMALLEST * radius {
             uncovered.push(self.centre);
             return Ok(());
         }
-        self.parts([0.0; 3]).try_for_each(|part| part.gather_all(radius, uncovered))
+        self.parts([0.0; 3]).try_for_each(|part| part.gather_all(radius, most, uncovered))
     }
 
     /// A place of it that is farther from the points than `radius`.

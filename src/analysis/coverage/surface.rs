@@ -3,12 +3,13 @@
 
 use glam::DVec3;
 
-use crate::analysis::coverage::groups::{DEPTH, LINK, check_count, group};
+use crate::analysis::coverage::groups::{DEPTH, LINK, check_count, group, most_uncovered};
 use crate::analysis::coverage::{Coverage, PRECISION};
 use crate::check;
 use crate::error::Result;
 use crate::index::PointTree;
 use crate::job::{Context, Job, Progress, chunks_of};
+use crate::memory;
 use crate::mesh::Mesh;
 use crate::psp::TOLERANCE;
 
@@ -17,6 +18,12 @@ const SHARE: f64 = 1.0 / 2048.0;
 /// The fragments of a task, and of one that gathers their uncovered parts, which may be many.
 const TASK: usize = 64;
 const GATHERED: usize = 8;
+
+/// The most bytes per point, in the tree, and per triangle.
+const BYTES_PER_POINT: f64 = 26.0;
+const BYTES_PER_TRIANGLE: f64 = 106.0;
+/// The most bytes per uncovered place.
+const BYTES_PER_PLACE: f64 = 60.0;
 
 /// The covering radius of samples on a mesh: the straight distance from the samples of the place of the surface that is
 /// farthest from all of them. A set is maximal for a radius if this is not above it. Infinite for an empty set, 0 where
@@ -29,6 +36,7 @@ const GATHERED: usize = 8;
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for positions that are not finite;
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn surface_covering_radius(
     context: &Context,
@@ -37,6 +45,7 @@ pub fn surface_covering_radius(
     progress: Option<&Progress>,
 ) -> Result<f64> {
     check::finite("positions", "position", positions)?;
+    require_memory(mesh, positions.len())?;
     context.run(progress, |job| {
         let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
         farthest(&job.part(0.1, 1.0), &tree, &TrianglePart::of(mesh))
@@ -58,6 +67,7 @@ pub fn surface_covering_radius(
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a radius that is not positive and finite and for positions
 /// that are not finite;
 /// [`Error::TooLarge`](crate::Error::TooLarge) for a `radius` that leaves uncovered more than some 600,000 times its square;
+/// [`Error::TooLarge`](crate::Error::TooLarge) for more points than memory holds;
 /// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn surface_coverage(
     context: &Context,
@@ -68,6 +78,7 @@ pub fn surface_coverage(
 ) -> Result<Coverage> {
     check::radius(radius)?;
     check::finite("positions", "position", positions)?;
+    require_memory(mesh, positions.len())?;
     context.run(progress, |job| {
         let tree = PointTree::of(&job.part(0.0, 0.1), positions)?;
         let fragments = TrianglePart::of(mesh);
@@ -83,6 +94,13 @@ pub fn surface_coverage(
     })
 }
 
+/// Refuses more points and triangles than fit in memory.
+fn require_memory(mesh: &Mesh, count: usize) -> Result<()> {
+    let triangles = mesh.triangles().len();
+    let bytes = BYTES_PER_POINT * count as f64 + BYTES_PER_TRIANGLE * triangles as f64;
+    memory::require(bytes, "positions", &format!("{count} points on {triangles} triangles"))
+}
+
 /// A place of each uncovered part of the fragments that is small enough to be of one gap.
 fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) -> Result<Vec<[f32; 3]>> {
     // More places than can be kept are refused before any is gathered.
@@ -91,17 +109,18 @@ fn gather(job: &Job, tree: &PointTree, fragments: &[TrianglePart], radius: f64) 
         let uncovered = fragments[tasks.range(task)].iter().filter(|fragment| fragment.is_uncovered(tree, radius));
         uncovered.map(|fragment| fragment.least_parts(radius)).sum::<f64>()
     })?;
-    check_count(least.into_iter().sum::<f64>() as usize)?;
+    let most = most_uncovered(BYTES_PER_PLACE);
+    check_count(least.into_iter().sum::<f64>() as usize, most)?;
     let tasks = chunks_of(fragments.len(), GATHERED);
     let mut uncovered = Vec::new();
     let task = |task: usize| {
         let mut found = Vec::new();
-        fragments[tasks.range(task)].iter().try_for_each(|fragment| fragment.gather(tree, radius, &mut found))?;
+        fragments[tasks.range(task)].iter().try_for_each(|fragment| fragment.gather(tree, radius, most, &mut found))?;
         Ok(found)
     };
     let keep = |found: Result<Vec<[f32; 3]>>| {
         uncovered.extend(found?);
-        check_count(uncovered.len())
+        check_count(uncovered.len(), most)
     };
     job.part(0.1, 1.0).stream(tasks.len(), task, keep)?;
     Ok(uncovered)
@@ -186,29 +205,29 @@ impl TrianglePart {
     }
 
     /// Appends a place of each uncovered part of it that is small enough to be of one gap.
-    fn gather(&self, tree: &PointTree, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
-        check_count(uncovered.len())?;
+    fn gather(&self, tree: &PointTree, radius: f64, most: usize, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
+        check_count(uncovered.len(), most)?;
         let Some(distance) = tree.nearest_beyond(self.centre, radius * (1.0 + DEPTH) - self.reach) else {
             return Ok(());
         };
         if distance - self.reach > radius {
-            self.gather_all(radius, uncovered)
+            self.gather_all(radius, most, uncovered)
         } else if self.reach <= 0.25 * LINK * radius {
             uncovered.extend(self.uncovered(tree, radius).map(|place| place.as_vec3().to_array()));
             Ok(())
         } else {
-            self.halves().iter().try_for_each(|half| half.gather(tree, radius, uncovered))
+            self.halves().iter().try_for_each(|half| half.gather(tree, radius, most, uncovered))
         }
     }
 
     /// Appends places of all of it, none of which is covered.
-    fn gather_all(&self, radius: f64, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
-        check_count(uncovered.len().saturating_add(self.least_parts(radius) as usize))?;
+    fn gather_all(&self, radius: f64, most: usize, uncovered: &mut Vec<[f32; 3]>) -> Result<()> {
+        check_count(uncovered.len().saturating_add(self.least_parts(radius) as usize), most)?;
         if self.reach <= 0.25 * LINK * radius {
             uncovered.push(self.centre.as_vec3().to_array());
             return Ok(());
         }
-        self.halves().iter().try_for_each(|half| half.gather_all(radius, uncovered))
+        self.halves().iter().try_for_each(|half| half.gather_all(radius, most, uncovered))
     }
 
     /// At least so many places are gathered if all of it is uncovered.

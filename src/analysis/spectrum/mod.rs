@@ -67,7 +67,8 @@ pub struct Periodogram<const D: usize = 2> {
 ///
 /// # Errors
 /// [`Error::InvalidArgument`] for a malformed domain, a `size` outside of 2 to [`MAX_SIZE`], points that are not
-/// finite, or none in the domain (`positions`); [`Error::Cancelled`].
+/// finite, or none in the domain (`positions`); [`Error::TooLarge`] for more points or frequencies than memory holds;
+/// [`Error::Cancelled`].
 pub fn periodogram(
     context: &Context,
     domain: &Domain,
@@ -98,6 +99,11 @@ pub fn sparse_periodogram(
     check::finite("positions", "point", points)?;
     let set = Tapered::new(domain, points)?;
     let frequency_step = set.frequency_step(stride);
+    // The power of a half of the frequencies, and then of all; and the points laid over each other.
+    let needed = bytes([size / 2; 2], points.len(), context.num_threads())
+        + 6.0 * square(size as f64)
+        + (size_of::<Weighted<2>>() * points.len()) as f64;
+    memory::require(needed, "size", &format!("{} points and {size} by {size} frequencies", points.len()))?;
     let power = context.run(progress, |job| set.power(job, [size; 2], stride))?;
     Ok(Periodogram { size: [size; 2], frequency_step, reach: largest_circle(size, frequency_step), power })
 }
@@ -226,8 +232,9 @@ struct Tapered<const D: usize> {
 }
 
 impl<const D: usize> Tapered<D> {
-    /// Refuses a set without a point in the domain.
+    /// Refuses a set without a point in the domain, or with more than memory holds.
     fn new(domain: &Domain<D>, points: &[[f32; D]]) -> Result<Self> {
+        memory::require_points("positions", points.len(), size_of::<Weighted<D>>() as f64)?;
         let extent = domain.extent();
         let weighted = points.iter().map(|point| {
             let turns: [f64; D] = std::array::from_fn(|axis| {

@@ -15,7 +15,7 @@ use glam::Vec2;
 use crate::dcr::correlation::rows::{Law, Rows, WIDEST};
 use crate::dcr::correlation::target::MEAN_SPACING;
 use crate::dcr::correlation::tension::{TABLE, Table, Tension, residual};
-use crate::dcr::relaxation::{Limits, PlaneRelaxation, Relaxation, Report, relax_set, require_memory};
+use crate::dcr::relaxation::{Limits, PlaneRelaxation, Relaxation, Report, relax_set, require_points};
 use crate::dcr::torus::{CLUSTERED, CurveOrder, Torus, TorusPoint, WaveGrid, leveled};
 use crate::error::{Error, Result};
 use crate::geometry::Delaunay;
@@ -261,7 +261,7 @@ pub fn relax_to_correlation(
 ) -> Result<(Vec<[f32; 2]>, CorrelationReport)> {
     options.check()?;
     options.domain.check_points(points)?;
-    require_memory("positions", points.len(), BYTES_PER_POINT)?;
+    require_points("positions", points.len(), BYTES_PER_POINT)?;
     let mut set = CorrelationRelaxation::new(options, target, points);
     let (relaxed, report) = relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)?;
     let reach = f64::from(set.reach) * set.mean_spacings * MEAN_SPACING;

@@ -41,6 +41,8 @@ pub struct WaveGrid {
     boundary: Option<MirrorBoundary>,
     /// Columns and rows.
     cells: [usize; 2],
+    /// The waves along columns and rows.
+    bins: [Vec<Bin>; 2],
     /// The transforms along rows and along columns, forward and back.
     forward: [Arc<dyn Fft<f32>>; 2],
     back: [Arc<dyn Fft<f32>>; 2],
@@ -61,7 +63,8 @@ impl WaveGrid {
         let mut planner = FftPlannerScalar::new();
         let forward = cells.map(|count| planner.plan_fft_forward(count));
         let back = cells.map(|count| planner.plan_fft_inverse(count));
-        Self { torus: *torus, boundary: None, cells, forward, back }
+        let bins = [0, 1].map(|axis: usize| bins(cells[axis], torus.frame.size()[axis]));
+        Self { torus: *torus, boundary: None, cells, bins, forward, back }
     }
 
     /// The displacements, in spacings, of the first `count` points, by waves up to the frequency `highest` in units of
@@ -161,13 +164,13 @@ impl WaveGrid {
     fn integrate(&self, job: &Job, waves: &mut Field, count: usize, highest: f64) -> Result<()> {
         let size = self.torus.frame.size();
         let per_point = (size.x * size.y / count as f64).sqrt() / (TAU * highest);
-        let (columns, rows) = (self.bins(0), self.bins(1));
+        let [columns, rows] = &self.bins;
         let finest = self.finest();
         let size = chunks_of(columns.len(), 1 + 8192 / rows.len()).size();
         let parts = waves.chunks_mut(size * rows.len()).zip(columns.chunks(size));
         job.map_each(parts.collect(), |(waves, columns)| {
             for (column, x) in waves.chunks_mut(rows.len()).zip(columns) {
-                for (wave, y) in column.iter_mut().zip(&rows) {
+                for (wave, y) in column.iter_mut().zip(rows) {
                     let k = DVec2::new(x.number, y.number);
                     let relative = k.length() * per_point;
                     if k == DVec2::ZERO || relative > CUTOFF || k.length() > finest {
@@ -194,18 +197,18 @@ impl WaveGrid {
         let along = |axis: usize| PI * self.cells[axis] as f64 / size[axis];
         f64::min(along(0), along(1))
     }
+}
 
-    /// The bins of the transform along an axis.
-    fn bins(&self, axis: usize) -> Vec<Bin> {
-        let (cells, length) = (self.cells[axis] as i64, self.torus.frame.size()[axis]);
-        let bin = |bin: i64| {
-            let turns = if 2 * bin > cells { bin - cells } else { bin };
-            let half = PI * turns as f64 / cells as f64;
-            let spline = if bin == 0 { 1.0 } else { power(sin(half) / half, 8) };
-            Bin { turns, number: TAU * turns as f64 / length, spline }
-        };
-        (0..cells).map(bin).collect()
-    }
+/// The bins of the transform along an axis of so many cells and of this length.
+fn bins(cells: usize, length: f64) -> Vec<Bin> {
+    let cells = cells as i64;
+    let bin = |bin: i64| {
+        let turns = if 2 * bin > cells { bin - cells } else { bin };
+        let half = PI * turns as f64 / cells as f64;
+        let spline = if bin == 0 { 1.0 } else { power(sin(half) / half, 8) };
+        Bin { turns, number: TAU * turns as f64 / length, spline }
+    };
+    (0..cells).map(bin).collect()
 }
 
 /// A bin of waves along an axis.

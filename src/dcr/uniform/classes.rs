@@ -14,7 +14,7 @@ use glam::Vec2;
 use crate::classes::Classes;
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, Neighbourhood};
 use crate::dcr::relaxation::{
-    DelaunayOptions, PlaneRelaxation, Relaxation, Report, Steps, Stopped, measure, relax_set, require_memory,
+    DelaunayOptions, PlaneRelaxation, Relaxation, Report, Steps, Stopped, measure, relax_set, require_points,
 };
 use crate::dcr::torus::{CurveOrder, LEVEL, MirrorBoundary, Torus, TorusPoint, WaveGrid, leveled};
 use crate::dcr::uniform::flip_mesh::FlipMesh;
@@ -393,7 +393,7 @@ pub fn relax_classes(
         Boundary::Periodic => BYTES_PER_POINT,
         Boundary::Bounded => BYTES_PER_MIRRORED_POINT,
     };
-    require_memory("positions", points.len(), bytes)?;
+    require_points("positions", points.len(), bytes)?;
     let mut set = ClassRelaxation::new(options.domain, options.seed, points, classes);
     let (relaxed, report) = relax_set(context, &options.domain, options.limits(), points, &mut set, progress, None)?;
     let count = classes.iter().max().map_or(0, |&last| last + 1);

@@ -85,12 +85,13 @@ pub struct UniformRelaxation {
     fewest: usize,
     /// The number of points whose constraints were violated before the last step.
     violated: usize,
-    /// The mesh of the points, once it exists.
-    mesh: Option<FlipMesh>,
+    /// The mesh of the points, once it exists. Steps pass it on: in a box, so that of a few points it does not take more
+    /// time to move than to use.
+    mesh: Option<Box<FlipMesh>>,
     /// The edges of the mesh that may have to be flipped after the last step; none if triangles may have turned over.
     suspects: Option<Vec<Edge>>,
     /// The cells of the points, while they are valid.
-    cells: Option<VerletCells>,
+    cells: Option<Box<VerletCells>>,
 }
 
 impl UniformRelaxation {
@@ -122,13 +123,14 @@ impl UniformRelaxation {
         let places = &self.state.places;
         if self.neighbourhood == Neighbourhood::Nearest {
             let reach = self.constraints(iteration).conflict_radius;
-            let mut cells = self.cells.take().unwrap_or_else(|| VerletCells::new(&self.torus, places, reach));
+            let cells = self.cells.take();
+            let mut cells = cells.unwrap_or_else(|| Box::new(VerletCells::new(&self.torus, places, reach)));
             cells.update(job, places)?;
             return Ok(NeighbourSearch::Nearest(cells));
         }
         let mesh = match self.mesh.take() {
             Some(mesh) => Some(mesh),
-            None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+            None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?.map(Box::new),
         };
         Ok(NeighbourSearch::Delaunay(match mesh {
             Some(mesh) => Neighbours::Kept(mesh),
@@ -226,7 +228,7 @@ impl Relaxation for UniformRelaxation {
         if found.is_unsound
             && let Some(mesh) = FlipMesh::of_few(&job.part(0.6, 0.61), &self.torus, &self.state.places)?
         {
-            neighbours = NeighbourSearch::Delaunay(Neighbours::Kept(mesh));
+            neighbours = NeighbourSearch::Delaunay(Neighbours::Kept(Box::new(mesh)));
             found = parameters.advance(&job.part(0.61, 0.63), &neighbours, &self.state, &mut next)?;
         }
         if found.is_unsound {
@@ -276,7 +278,7 @@ impl Relaxation for UniformRelaxation {
             Some(mut mesh) => mesh.repair(&job.part(0.0, 0.5), places)?.then_some(mesh),
             None if self.fewest == usize::MAX => None,
             // A call that was cancelled may have lost the mesh.
-            None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+            None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?.map(Box::new),
         };
         let Some(mesh) = mesh else { return Ok(()) };
         if self.fewest == usize::MAX || mesh.violated(&job.part(0.5, 1.0), places, self.order.len())? <= self.fewest {
@@ -298,7 +300,7 @@ impl PlaneRelaxation for UniformRelaxation {
         let places = &self.state.places;
         let mesh = match self.mesh.take() {
             Some(mesh) => Some(mesh),
-            None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?,
+            None => FlipMesh::new(&job.part(0.0, 0.5), &self.torus, places)?.map(Box::new),
         };
         let radius = match mesh {
             Some(mesh) => mesh.covering_radius(&job.part(0.5, 1.0), places)?,
@@ -314,8 +316,8 @@ pub const JAMMED: f32 = 0.02;
 
 /// Finds the neighbours of each point.
 pub enum NeighbourSearch {
-    Delaunay(Neighbours<FlipMesh>),
-    Nearest(VerletCells),
+    Delaunay(Neighbours<Box<FlipMesh>>),
+    Nearest(Box<VerletCells>),
 }
 
 /// The positions and velocities of the points.

@@ -19,7 +19,7 @@ mod torus;
 
 pub use solid::{InsideOptions, relax_inside};
 
-use crate::dcr::relaxation::{Limits, Steps, Stopped, require_memory, run};
+use crate::dcr::relaxation::{Limits, Steps, Stopped, require_points, run};
 use crate::dcr::volume::relaxation::VolumeRelaxation;
 use crate::dcr::volume::smallest::smallest_distance;
 use crate::dcr::volume::torus::VolumeTorus;
@@ -126,7 +126,7 @@ pub fn relax(
     domain.check_points(points)?;
     let torus = VolumeTorus::new(domain, points.len().max(1));
     let bytes = BYTES_PER_POINT + BYTES_PER_IMAGE * torus.images().count() as f64;
-    require_memory("positions", points.len(), bytes)?;
+    require_points("positions", points.len(), bytes)?;
     let mut set = VolumeRelaxation::new(torus, points, max_iterations, seed);
     relax_set(
         context,

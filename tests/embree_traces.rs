@@ -2,19 +2,19 @@
 //! the filter, on whichever Embree is installed; and an oracle that needs no Embree.
 //!
 //! The traces were recorded with Embree 3.13.5, by single rays, with
-//! `cargo test --test all embree_traces::record -- --ignored`.
+//! `cargo test --test embree_traces record -- --ignored`.
 //!
 //! Two Embrees, or two widths, need not agree in the last bits: what rounding may do to a hit is what the oracle says.
 //! That also settles rays through edges and vertices: a hit that rounding can hide may be missing, and one that rounding
 //! can make may be there.
+
+mod traces;
 
 use azulejo::trace::{Hit, Ray, Scene};
 use azulejo::{Error, Result};
 use traces::file::Trace;
 use traces::meshes::{self, Mesh};
 use traces::oracle::Meeting;
-
-use crate::traces;
 
 const WIDTHS: [usize; 4] = [1, 4, 8, 16];
 const NAMES: [&str; 5] = ["sphere", "torus", "soup", "slivers", "degenerate"];
