@@ -289,11 +289,7 @@ fn volume_refuses_what_it_cannot_make() {
         (&["--radius", "0.1", "--clearance", "0.2"], 2, "error: "),
         (&["--radius", "0.1", "--count", "5"], 2, "error: "),
         (&["--radius", "0.1", "--box", "0", "0", "1", "1"], 2, "error: "),
-        (
-            &["--radius", "0.1", "--inside", "flat.obj"],
-            1,
-            "error: flat.obj: encloses nothing: caps close its holes",
-        ),
+        (&["--radius", "0.1", "--inside", "flat.obj"], 1, "error: flat.obj: encloses nothing: caps close its holes"),
         (&["--radius", "0.1", "--inside", "none.obj"], 1, "error: none.obj: "),
         (&["--radius", "0.1", "--inside", "open.obj", "--bounded"], 2, "error: "),
         (&["--count", "9", "--inside", "open.obj", "--surface-first"], 2, "error: "),

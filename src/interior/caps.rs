@@ -17,6 +17,7 @@ use glam::DVec3;
 
 use crate::error::Result;
 use crate::interior::{Interior, WOUND};
+use crate::memory;
 use crate::mesh::{Mesh, exact};
 
 /// No edge of a cap is longer than this part of the length of its ring, where there are up to `IN_FULL` rings of one length; the caps of
@@ -41,11 +42,18 @@ const REACH: f64 = 0.5;
 const TRIALS: usize = 7;
 const GOOD: f64 = 1e-3;
 
+/// After all vertices are made, each is moved again so many times, along the normal that it has by then.
+const SWEEPS: usize = 3;
+
 /// A place is on the surface if it is nearer than this, in lengths of the ring.
 const ON_SURFACE: f64 = 1e-6;
 
 /// No triangle: beyond an edge of the ring.
 const NONE: usize = usize::MAX;
+
+/// The most bytes, while caps are made, for each edge of a ring and for each triangle of the mesh.
+const BYTES_PER_EDGE: f64 = 200.0;
+const BYTES_PER_TRIANGLE: f64 = 40.0;
 
 /// A mesh with its caps, as it is kept.
 struct Capped(Arc<Mesh>);
@@ -58,6 +66,9 @@ impl Mesh {
         if sides.odd_edges == 0 {
             return Ok(None);
         }
+        let (count, triangles) = (sides.odd_edges, self.triangles().len());
+        let bytes = BYTES_PER_EDGE * count as f64 + BYTES_PER_TRIANGLE * triangles as f64;
+        memory::require(bytes, "mesh", &format!("caps at {count} edges of {triangles} triangles"))?;
         let interior = Interior::of(self);
         let make = || Ok(Capped(Arc::new(capped(self, &sides.boundary, &interior)?)));
         Ok(Some(self.kept(|| Ok(()), make)?.0.clone()))
@@ -146,7 +157,10 @@ impl Cap {
         let places: Vec<_> = cap.places.iter().map(|&place| exact(place)).collect();
         triangulate(&places, &pieces, &mut cap.triangles);
         if !is_triangle {
-            cap.halve(longest, |start, direction, reach| level(start, direction, [reach, length], &winding));
+            let moved = |start, direction, reach| level(start, direction, [reach, length], &winding);
+            let first = cap.places.len();
+            cap.halve(longest, moved);
+            cap.settle(first, moved);
         }
         cap
     }
@@ -197,6 +211,31 @@ impl Cap {
                 }
             }
             queue.extend(edge.into_iter().filter_map(|end| self.long(sorted([end, vertex]), longest)));
+        }
+    }
+
+    /// Moves the vertices from a first one on once more, by no more than a share of their shortest edge.
+    fn settle(&mut self, first: usize, moved: impl Fn(DVec3, DVec3, f64) -> [f32; 3]) {
+        let mut around = vec![Vec::new(); self.places.len() - first];
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            corners
+                .iter()
+                .filter(|&&corner| corner as usize >= first)
+                .for_each(|&c| around[c as usize - first].push(triangle));
+        }
+        for _ in 0..SWEEPS {
+            for (vertex, triangles) in (first..).zip(&around) {
+                let place = exact(self.places[vertex]);
+                let direction =
+                    triangles.iter().map(|&triangle| self.normal(triangle)).sum::<DVec3>().normalize_or_zero();
+                let ends = triangles
+                    .iter()
+                    .flat_map(|&triangle| self.triangles[triangle])
+                    .filter(|&end| end as usize != vertex);
+                let shortest =
+                    ends.map(|end| place.distance(exact(self.places[end as usize]))).fold(f64::INFINITY, f64::min);
+                self.places[vertex] = moved(place, direction, REACH * shortest);
+            }
         }
     }
 

@@ -29,6 +29,7 @@ const SPHERE: f64 = 2.0 * TAU;
 /// Up to so many fans are summed without the tree where its number is this near to the border, and then right to the last.
 const FEW: usize = 2048;
 const CLOSE: f64 = 0.05;
+const CLOSE_IF_PRECISE: f64 = 0.005;
 pub const ERROR_OF_FEW: f64 = 1e-6;
 
 /// The triangles of a node.
@@ -128,9 +129,10 @@ impl Fans {
         (f64::from(turns) * TAU + f64::from(halves) * 0.5 * TAU + atan2(product[1], product[0])) / TAU
     }
 
-    /// The winding number of the fans at a point, to about 1/1000.
-    pub fn number(&self, place: [f32; 3]) -> f64 {
-        self.at(place, FAR_TO_BE_PRECISE)
+    /// The winding number of the fans at a point, to about 1/1000: the sum of all, if they are few, where that leaves something open.
+    pub fn precise_number_if(&self, place: [f32; 3], is_open: impl Fn(f64, f64) -> bool) -> f64 {
+        let number = self.at(place, FAR_TO_BE_PRECISE);
+        if self.are_few() && is_open(number, CLOSE_IF_PRECISE) { self.sum(place) } else { number }
     }
 
     /// The winding number of the fans at a point, by the tree.

@@ -24,6 +24,9 @@ const ENOUGH: usize = 200;
 /// The radii by which a body has as many samples as one that is larger all around and has no boundary.
 const BEYOND: f64 = 0.35;
 
+/// A cap beside a sheet encloses, where both are rounded, up to so many float spacings times the area of both.
+const ROUNDED: f64 = 2.0;
+
 /// The most bytes per triangle of what is made for the inside of a mesh.
 const BYTES_PER_TRIANGLE: f64 = 200.0;
 
@@ -56,7 +59,7 @@ pub struct Body {
 
 impl Body {
     /// The inside of a mesh, with caps in its holes, up to a tolerance, in radii: all of it, or a shell of a thickness above 0.
-    /// Refuses a mesh whose triangles cancel out.
+    /// Refuses a mesh whose triangles cancel out, and sheets.
     pub fn new(mesh: &Mesh, tolerance: f64, thickness: f64) -> Result<Self> {
         let capped = mesh.with_caps()?;
         let (mesh, has_caps) = (capped.as_deref().unwrap_or(mesh), capped.is_some());
@@ -83,7 +86,8 @@ impl Body {
         }
         let bytes = BYTES_PER_TRIANGLE * mesh.triangles().len() as f64;
         let body = Self { interior, has_caps, tolerance, thickness, domain, volume, area, bytes };
-        if body.volume == 0.0 && body.interior.cancels_out() { Err(body.encloses_nothing()) } else { Ok(body) }
+        let is_empty = || body.interior.cancels_out() || has_caps && body.seems_empty();
+        if body.volume == 0.0 && is_empty() { Err(body.encloses_nothing()) } else { Ok(body) }
     }
 
     /// The refusal of a mesh in which no place for a sample was found.
@@ -96,9 +100,14 @@ impl Body {
         Error::invalid("mesh", reason)
     }
 
-    /// True if no ray meets the inside, also of some bodies that are very thin.
+    /// True if no ray meets the inside, also of some bodies that are very thin, or if only rounding parts caps from the mesh.
     pub fn seems_empty(&self) -> bool {
-        self.interior.volume() == 0.0
+        let rounded = if self.has_caps { ROUNDED * self.float_spacing() * self.area } else { 0.0 };
+        self.interior.volume() <= rounded
+    }
+
+    fn float_spacing(&self) -> f64 {
+        float_spacing(self.domain.min.iter().chain(&self.domain.max))
     }
 
     pub fn solid(&self) -> Solid<'_> {
@@ -107,7 +116,7 @@ impl Body {
 
     /// The depth of places that a set with this covering radius may leave open.
     pub fn depth(&self, covering_radius: f64) -> f64 {
-        let spacing = float_spacing(self.domain.min.iter().chain(&self.domain.max));
+        let spacing = self.float_spacing();
         let side = self.solid().tolerance_of(covering_radius) * covering_radius;
         // The error of two distances, by which a box is known to reach the inner border.
         let error = self.thickness.map_or(0.0, |thickness| 2.0 * thickness.error);

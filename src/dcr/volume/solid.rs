@@ -1,4 +1,4 @@
-//! Relaxation inside of closed meshes.
+//! Relaxation inside of meshes.
 
 use crate::check;
 use crate::dcr::relaxation::Limits;
