@@ -4,7 +4,8 @@
 //! the triangulation of least area (Barequet and Sharir 1995, "Filling gaps in the boundary of a polyhedron"; Liepa 2003, "Filling
 //! holes in meshes"), whose edges are then halved until they are short beside the ring. Each new vertex is moved to where the
 //! generalised winding number (`winding.rs`; Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
-//! numbers") is 1/2, or as near to it as halves of its edge allow: where the surface is on one side of a flat ring, the cap stays flat.
+//! numbers") is 1/2, or as near to it as halves of edges allow, at first and again when all others are there: where the surface is on one
+//! side of a flat ring, the cap stays flat.
 //!
 //! The mesh with its caps is closed by construction, however floats are rounded: edges of rings are not changed, and where vertices
 //! are put on them, triangles of no area are between the old edge and the new ones. The cap of a loose triangle is that triangle.
@@ -66,11 +67,12 @@ impl Mesh {
         if sides.odd_edges == 0 {
             return Ok(None);
         }
-        let (count, triangles) = (sides.odd_edges, self.triangles().len());
-        let bytes = BYTES_PER_EDGE * count as f64 + BYTES_PER_TRIANGLE * triangles as f64;
-        memory::require(bytes, "mesh", &format!("caps at {count} edges of {triangles} triangles"))?;
-        let interior = Interior::of(self);
-        let make = || Ok(Capped(Arc::new(capped(self, &sides.boundary, &interior)?)));
+        let make = || {
+            let (count, triangles) = (sides.odd_edges, self.triangles().len());
+            let bytes = BYTES_PER_EDGE * count as f64 + BYTES_PER_TRIANGLE * triangles as f64;
+            memory::require(bytes, "mesh", &format!("caps at {count} edges of {triangles} triangles"))?;
+            Ok(Capped(Arc::new(capped(self, &sides.boundary, &Interior::of(self))?)))
+        };
         Ok(Some(self.kept(|| Ok(()), make)?.0.clone()))
     }
 }
