@@ -32,6 +32,9 @@ const CLOSE: f64 = 0.05;
 const CLOSE_IF_PRECISE: f64 = 0.005;
 pub const ERROR_OF_FEW: f64 = 1e-6;
 
+/// The cosine of half an angle, of a point in the plane of the triangle, is less than this on an edge.
+const ON_EDGE: f64 = 1e-12;
+
 /// The triangles of a node.
 #[derive(Clone, Debug, Default)]
 struct Moments {
@@ -116,7 +119,8 @@ impl Fans {
             }
             let size = cosine.abs() + volume;
             let ([x, y], [u, v]) = (product, [cosine / size, -f64::from(side) * volume / size]);
-            product = [x * u - y * v, x * v + y * u];
+            // Not -0, whose argument would be another one.
+            product = [x * u - y * v, x * v + y * u + 0.0];
             // Beyond half a turn the product appears on the other side.
             if y >= 0.0 && v > 0.0 && product[1] < 0.0 {
                 turns += 1;
@@ -208,7 +212,12 @@ fn half_angle(point: [f32; 3], corners: &[[f32; 3]; 3]) -> [f64; 2] {
     let lengths = [a.length(), b.length(), c.length()];
     let cosine =
         lengths[0] * lengths[1] * lengths[2] + a.dot(b) * lengths[2] + b.dot(c) * lengths[0] + c.dot(a) * lengths[1];
-    [cosine, a.dot(b.cross(c)).abs()]
+    let (volume, size) = (a.dot(b.cross(c)).abs(), lengths[0] * lengths[1] * lengths[2]);
+    if volume == 0.0 && size > 0.0 && cosine.abs() <= ON_EDGE * size {
+        // On an edge, where the triangle fills a quarter of the sphere, whose half is a quarter of a turn.
+        return [0.0, size];
+    }
+    [cosine, volume]
 }
 
 /// The first vertex of all that are connected with one.
