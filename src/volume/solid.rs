@@ -63,9 +63,10 @@ pub struct InsideReport {
 /// of up to 10^4 triangles each, are also made once: the five of the Stanford bunny took 0.1 s.
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for a `mesh` that encloses nothing and for an option out of range, also for
+/// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a `mesh` that encloses nothing and for an option out of range, also for
 /// [`Surface::First`](crate::volume::Surface::First) with a count or in progressive order, and for a count where given samples
-/// leave no place; [`Error::TooLarge`] above 2^32 samples or the available memory; [`Error::Cancelled`].
+/// leave no place; [`Error::TooLarge`](crate::Error::TooLarge) above 2^32 samples or the available memory;
+/// [`Error::Cancelled`](crate::Error::Cancelled).
 pub fn sample_inside(
     context: &Context,
     mesh: &Arc<Mesh>,
