@@ -1920,7 +1920,7 @@ inline Status try_volume_relax(const Context &context, const VolumeRelaxOptions 
     });
 }
 
-/// Relaxes points inside a closed mesh; see azulejo_volume_relax_inside.
+/// Relaxes points inside a mesh; see azulejo_volume_relax_inside.
 inline Status try_volume_relax_inside(const Context &context, const Mesh &mesh,
                                       const VolumeRelaxInsideOptions &options,
                                       const SpacePoints &positions, Points &out,
@@ -1985,7 +1985,7 @@ inline Status try_volume_adaptive_sample(const Context &context,
     });
 }
 
-/// The same inside a closed mesh.
+/// The same inside a mesh.
 inline Status try_volume_adaptive_sample(const Context &context, const Mesh &mesh,
                                          const VolumeAdaptiveOptions &options, Points &out,
                                          VolumeReport *report = nullptr) {

@@ -765,7 +765,7 @@ export interface VolumeRelaxInsideOptions extends Watched {
 }
 
 /**
- * Moves points inside a closed mesh, x y z each, until they are evenly spread. None leaves the inside; those that are fixed, such
+ * Moves points inside a mesh, x y z each, until they are evenly spread. None leaves the inside; those that are fixed, such
  * as the first `surfaceSamples` of volumeSampleInside, need only be in the box around the mesh, those that slide on its surface.
  */
 export function volumeRelaxInside(

@@ -140,12 +140,12 @@ azulejo_status azulejo_volume_inside_options_init(azulejo_volume_inside_options 
 azulejo_status azulejo_volume_inside_report_init(azulejo_volume_inside_report *report,
                                                  size_t struct_size);
 
-/// Makes a maximal, conflict-free set of samples inside a mesh that is closed
-/// (azulejo_mesh_is_closed) and encloses something, x y z each: no place inside is farther from
-/// every sample than the radius and 7 float spacings, unless it is nearer to the surface, or to a
-/// shell's inner border, than the report's `depth`. No sample is outside (azulejo_mesh_contains),
-/// except those of the surface, which azulejo_psp_sample makes with the same radius and seed. The
-/// result has positions only. Count, order and given samples are as in azulejo_volume_sample.
+/// Makes a maximal, conflict-free set of samples inside a mesh that encloses something, x y z each:
+/// no place inside is farther from every sample than the radius and 7 float spacings, unless it is
+/// nearer to the surface, or a shell's inner border, than the report's `depth`. Holes are closed by
+/// caps, about where the winding number is 1/2, which count as surface; no sample is outside, except
+/// those of the surface without caps, which azulejo_psp_sample makes with the same radius and seed.
+/// The result has positions only. Count, order, given samples: as in azulejo_volume_sample.
 /// - O(samples) time and memory, and O(triangles * log triangles) for the first call on a mesh.
 azulejo_status azulejo_volume_sample_inside(const azulejo_context *context,
                                             const azulejo_mesh *mesh,
@@ -161,8 +161,8 @@ uint32_t azulejo_mesh_is_closed(const azulejo_mesh *mesh);
 /// Writes to `inside` for each of `count` points, x y z each, 1 if it is inside the mesh, else 0.
 /// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles,
 /// without rounding: meshes that share a face share no point. In any other mesh the generalised
-/// winding number is at least 1/2, or at most -1/2, up to .02. O(triangles * log triangles) the
-/// first time, then about O(log triangles) for a point.
+/// winding number is at least 1/2, or at most -1/2, up to .02 if the boundary has more than 2,048
+/// edges. O(triangles * log triangles) the first time, then about O(log triangles) for a point.
 azulejo_status azulejo_mesh_contains(const azulejo_context *context,
                                      const azulejo_mesh *mesh,
                                      const float *positions,
@@ -193,7 +193,7 @@ azulejo_status azulejo_volume_adaptive_options_init(azulejo_volume_adaptive_opti
                                                     size_t struct_size);
 
 /// Makes a maximal set of samples, each with a radius of its own (azulejo_points_radii), of a
-/// cuboid or, unless `mesh` is NULL, inside a closed mesh. Rule and errors are those of
+/// cuboid or, unless `mesh` is NULL, inside a mesh. Rule and errors are those of
 /// azulejo_psp_adaptive_sample, the tolerance that of azulejo_volume_sample, inside a mesh with
 /// the radius of the place, and the change of the radius over it. A grid lies over the cuboid or
 /// the box around the mesh, its first and last radii on the faces, linear along each axis. A
@@ -280,8 +280,8 @@ azulejo_status azulejo_volume_relax(const azulejo_context *context,
 azulejo_status azulejo_relax_inside_options_init(azulejo_relax_inside_options *options,
                                                  size_t struct_size);
 
-/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. None
-/// leaves the inside (azulejo_mesh_contains). Clustered ones are not redistributed.
+/// Relaxes points inside a mesh, as azulejo_volume_relax does in a bounded domain. None leaves the
+/// inside (azulejo_volume_sample_inside). Clustered ones are not redistributed.
 /// positions: those that are fixed in the box around the mesh, those that slide on its surface.
 azulejo_status azulejo_volume_relax_inside(const azulejo_context *context,
                                            const azulejo_mesh *mesh,

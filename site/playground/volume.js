@@ -1,4 +1,4 @@
-// The inside of a box or of a closed mesh, and a cut through it.
+// The inside of a box or of a mesh, and a cut through it.
 import { ask, latest } from "./library.js";
 import { Panel, colours, fitted, milliseconds, onScheme, short, takesFiles, whole } from "./controls.js";
 import { builtIn, fileOf, fromFile, saveMesh, showByAmount } from "./mesh.js";

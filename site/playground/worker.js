@@ -127,7 +127,7 @@ const tasks = {
         return { ...set, domainMax: domain.domainMax, milliseconds };
     },
 
-    // The inside of a box or of a closed mesh; how far apart samples are is measured on what was returned.
+    // The inside of a box or of a mesh; how far apart samples are is measured on what was returned.
     volume({ mesh, options }) {
         const [set, milliseconds] = timed(() => (
             mesh ? azulejo.volumeSampleInside(meshOf(mesh), options) : azulejo.volumeSample(options)

@@ -19,7 +19,7 @@ const file = (name, text) => {
     return join(scratch, name);
 };
 const CUBE = file("cube.off", `OFF\n8 6 0\n${corners}\n${squares.join("\n")}\n`);
-const OPEN = file("open.off", `OFF\n8 5 0\n${corners}\n${squares.slice(1).join("\n")}\n`);
+const FLAT = file("flat.off", `OFF\n8 1 0\n${corners}\n${squares[0]}\n`);
 const BROKEN = file("broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
 
 const { server, address } = await serve(site);
@@ -284,8 +284,8 @@ const JOBS = {
         assert.equal(knot.conflicts, "0");
         assert.ok(number(knot["of these on the surface"]) > 500 && number(knot.samples) > number(knot["of these on the surface"]));
         assert.ok(await share("r > b + 60") > 0.002, "no samples of the surface");
-        await upload(OPEN);
-        assert.match(await message(), /^mesh: is not closed/);
+        await upload(FLAT);
+        assert.match(await message(), /^mesh: encloses nothing/);
         // A file that is dropped, instead of chosen.
         const made = await runs();
         await page.$eval("#volume .stage", (stage, text) => {

@@ -33,11 +33,14 @@ impl Interior {
     }
 
     fn measured_volume(&self) -> f64 {
-        let mut rays = RAYS;
+        let ([low, high], mut rays) = (self.bounds, RAYS);
+        if (0..3).any(|axis| low[axis] == high[axis]) {
+            // Rays in the plane of all triangles would meet each of them.
+            return 0.0;
+        }
         loop {
             let (length, passed) = self.passed(rays);
             if passed >= ENOUGH || rays == MOST_RAYS {
-                let [low, high] = self.bounds;
                 let side = |axis: usize| (f64::from(high[axis]) - f64::from(low[axis])) / f64::from(rays);
                 return length * side(1) * side(2);
             }

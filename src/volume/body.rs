@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::error::{Error, Result};
 use crate::interior::Interior;
 use crate::math::hypot;
 use crate::mesh::Mesh;
@@ -23,6 +24,9 @@ const ENOUGH: usize = 200;
 /// The radii by which a body has as many samples as one that is larger all around and has no boundary.
 const BEYOND: f64 = 0.35;
 
+/// A cap beside a sheet encloses, where both are rounded, up to so many float spacings times the area of both.
+const ROUNDED: f64 = 2.0;
+
 /// The most bytes per triangle of what is made for the inside of a mesh.
 const BYTES_PER_TRIANGLE: f64 = 200.0;
 
@@ -41,6 +45,7 @@ fn bounds(mesh: &Mesh) -> Domain<3> {
 /// A mesh as what is filled, and its measures.
 pub struct Body {
     interior: Arc<Interior>,
+    has_caps: bool,
     tolerance: f64,
     thickness: Option<Thickness>,
     /// The box around it.
@@ -53,8 +58,11 @@ pub struct Body {
 }
 
 impl Body {
-    /// The inside of a mesh up to a tolerance, in radii: all of it, or a shell of a thickness above 0.
-    pub fn new(mesh: &Mesh, tolerance: f64, thickness: f64) -> Self {
+    /// The inside of a mesh, with caps in its holes, up to a tolerance, in radii: all of it, or a shell of a thickness above 0.
+    /// Refuses a mesh whose triangles cancel out, and sheets.
+    pub fn new(mesh: &Mesh, tolerance: f64, thickness: f64) -> Result<Self> {
+        let capped = mesh.with_caps()?;
+        let (mesh, has_caps) = (capped.as_deref().unwrap_or(mesh), capped.is_some());
         let (interior, domain) = (Interior::of(mesh), bounds(mesh));
         let [x, y, z] = domain.extent();
         let is_shell = 0.0 < thickness && thickness < ALL * x.min(y).min(z);
@@ -77,17 +85,29 @@ impl Body {
             }
         }
         let bytes = BYTES_PER_TRIANGLE * mesh.triangles().len() as f64;
-        Self { interior, tolerance, thickness, domain, volume, area, bytes }
+        let body = Self { interior, has_caps, tolerance, thickness, domain, volume, area, bytes };
+        let is_empty = || body.interior.cancels_out() || has_caps && body.seems_empty();
+        if body.volume == 0.0 && is_empty() { Err(body.encloses_nothing()) } else { Ok(body) }
     }
 
-    /// True if the triangles of the mesh cancel out.
-    pub fn encloses_nothing(&self) -> bool {
-        self.volume == 0.0 && self.interior.cancels_out()
+    /// The refusal of a mesh in which no place for a sample was found.
+    pub fn encloses_nothing(&self) -> Error {
+        let reason = if self.has_caps {
+            "encloses nothing: caps close its holes, and leave nothing inside, as of loose triangles"
+        } else {
+            "encloses nothing: where parts of a surface coincide they cancel out"
+        };
+        Error::invalid("mesh", reason)
     }
 
-    /// True if no ray meets the inside, also of some bodies that are very thin.
+    /// True if no ray meets the inside, also of some bodies that are very thin, or if only rounding parts caps from the mesh.
     pub fn seems_empty(&self) -> bool {
-        self.interior.volume() == 0.0
+        let rounded = if self.has_caps { ROUNDED * self.float_spacing() * self.area } else { 0.0 };
+        self.interior.volume() <= rounded
+    }
+
+    fn float_spacing(&self) -> f64 {
+        float_spacing(self.domain.min.iter().chain(&self.domain.max))
     }
 
     pub fn solid(&self) -> Solid<'_> {
@@ -96,7 +116,7 @@ impl Body {
 
     /// The depth of places that a set with this covering radius may leave open.
     pub fn depth(&self, covering_radius: f64) -> f64 {
-        let spacing = float_spacing(self.domain.min.iter().chain(&self.domain.max));
+        let spacing = self.float_spacing();
         let side = self.solid().tolerance_of(covering_radius) * covering_radius;
         // The error of two distances, by which a box is known to reach the inner border.
         let error = self.thickness.map_or(0.0, |thickness| 2.0 * thickness.error);
@@ -126,7 +146,7 @@ mod tests {
         for (thickness, error) in [(0.0, 0.03), (0.3, 0.1), (0.1, 0.3), (0.03, 0.5), (0.001, 0.5)] {
             let options = InsideOptions::new(0.04).thickness(thickness);
             let found = sample_inside(&Context::new(1).unwrap(), &mesh, &options, None).unwrap().0.len() as f64;
-            let expected = Body::new(&mesh, 1.0 / 16.0, thickness).expected_samples(0.04);
+            let expected = Body::new(&mesh, 1.0 / 16.0, thickness).unwrap().expected_samples(0.04);
             assert!((expected / found - 1.0).abs() < error, "{thickness}: {expected} of {found}");
         }
     }

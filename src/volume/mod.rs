@@ -50,7 +50,6 @@ use body::Body;
 pub use classes::{ClassesOptions, sample_classes};
 use clip::pattern_bytes;
 pub use inside_options::{InsideOptions, Surface};
-pub(crate) use solid::check_closed;
 pub use solid::{InsideReport, sample_inside};
 use space::Space;
 use tiling::is_worthwhile;
@@ -349,7 +348,7 @@ impl Levelled for Cuboid<'_> {
 
     fn no_place(&self, count: usize) -> Error {
         match self.body {
-            Some(_) if !self.has_given => solid::encloses_nothing(),
+            Some(body) if !self.has_given => body.encloses_nothing(),
             _ => levels::covered_by_given(count, Self::NAMES[1]),
         }
     }

@@ -14,7 +14,7 @@ fn mesh((positions, triangles): Soup) -> Mesh {
 
 /// The solid angle of all triangles over 4π, as sums of angles of spherical triangles would be, by another formula than the
 /// library's: l'Huilier's.
-fn winding(mesh: &Mesh, point: [f32; 3]) -> f64 {
+pub fn winding(mesh: &Mesh, point: [f32; 3]) -> f64 {
     let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let cross =

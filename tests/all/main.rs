@@ -68,5 +68,6 @@ mod volume_adaptive;
 mod volume_classes;
 mod volume_given;
 mod volume_inside;
+mod volume_open;
 mod volume_order;
 mod volume_shell;

@@ -261,29 +261,6 @@ fn meshes_that_enclose_nothing_are_refused() {
     made(&mesh((thin, triangles)), &InsideOptions::new(0.3));
 }
 
-#[test]
-fn meshes_that_are_not_closed_are_refused() {
-    let mut box_without_face = cube();
-    box_without_face.1.truncate(10);
-    let (positions, mut triangles) = meshes::welded(meshes::sphere());
-    triangles.remove(triangles.len() / 2);
-    let pierced = (positions, triangles);
-    for (soup, odd) in [(box_without_face, 4), (pierced, 3), (meshes::needles(1e-3), 0)] {
-        let mesh = mesh(soup);
-        for options in
-            [InsideOptions::new(0.2), InsideOptions::by_count(9), InsideOptions::new(0.2).surface(Surface::First)]
-        {
-            let error = sample_inside(&Context::new(1).unwrap(), &mesh, &options, None).unwrap_err().to_string();
-            let start = "mesh: is not closed: an odd number of triangles shares ";
-            assert!(error.starts_with(start) && (odd == 0 || error.contains(&format!("shares {odd} of"))), "{error}");
-        }
-    }
-    // A mask opens a mesh.
-    let (positions, triangles) = cube();
-    let masked = Mesh::new(positions, triangles).unwrap().with_mask((0..12).map(|k| k != 3).collect()).unwrap();
-    assert!(sample_inside(&Context::new(1).unwrap(), &Arc::new(masked), &InsideOptions::new(0.2), None).is_err());
-}
-
 /// The surface comes first, as the sampler of surfaces makes it.
 #[test]
 fn samples_of_the_surface_come_first() {

@@ -416,8 +416,8 @@ static void relaxes_inside(void) {
     CHECK(report.iterations == 100 && report.rho > 0);
     azulejo_points_free(points);
     azulejo_points_free(again);
-    REFUSED(INVALID, "mesh: is not closed",
-            azulejo_volume_relax_inside(one, open, &options, positions, RELAXED, &out, NULL));
+    ACCEPTED(azulejo_volume_relax_inside(one, open, &options, positions, RELAXED, &points, NULL));
+    azulejo_points_free(points);
     REFUSED(INVALID, "fixed: has 600 entries for 2 points",
             azulejo_volume_relax_inside(one, cube, &options, positions, 2, &out, NULL));
     options.fixed = NULL;

@@ -451,7 +451,10 @@ test("sets inside meshes are conflict-free, maximal below the surface, and of cl
     const counted = azulejo.volumeSampleInside(mesh, { count: 150, order: "progressive", tolerance: 0.1 });
     assert.deepEqual([counted.positions.length, counted.ranks.length], [450, 150]);
     const open = new azulejo.Mesh(corners, triangles.slice(3));
-    assert.throws(() => azulejo.volumeSampleInside(open, { radius: 0.15 }), /mesh: is not closed/);
+    const filled = azulejo.volumeSampleInside(open, { radius: 0.15 });
+    assert.ok(smallest(filled.positions, 3) >= 0.15 && mesh.contains(filled.positions).every((is) => is === 1));
+    const loose = new azulejo.Mesh(corners, triangles.slice(0, 3));
+    assert.throws(() => azulejo.volumeSampleInside(loose, { radius: 0.15 }), /mesh: encloses nothing/);
     assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, surface: "last" }), /surface: last/);
     assert.throws(() => azulejo.volumeSampleInside(mesh, { radius: 0.15, tolerance: 1 }), /tolerance: /);
     const all = azulejo.volumeSampleInside(mesh, { radius: 0.15 }).positions;

@@ -35,12 +35,13 @@ impl From<volume::InsideReport> for VolumeInsideReport {
     }
 }
 
-/// A maximal Poisson-disk set of the inside of a closed mesh: no two samples are closer than a radius, and no place inside is
+/// A maximal Poisson-disk set of the inside of a mesh: no two samples are closer than a radius, and no place inside is
 /// farther from all of them, unless it is nearer to the surface than the report's depth. Time grows in proportion to the
 /// samples.
 ///
-/// mesh: a Mesh; or what has vertices and faces, as of trimesh, Open3D and PyVista; or a tuple (vertices, faces). An even
-///     number of triangles must share each edge; their direction does not matter.
+/// mesh: a Mesh; or what has vertices and faces, as of trimesh, Open3D and PyVista; or a tuple (vertices, faces). Holes, whose
+///     edges an odd number of triangles shares, are closed by caps, about where the generalised winding number is 1/2. Caps count as
+///     surface, but have no samples of it. The direction of triangles matters for the place of caps only.
 /// radius: the smallest distance of two samples, above 0, in the units of the mesh. Or:
 /// count: the number of samples, which is met exactly; the radius is found.
 /// surface: "open": samples lie anywhere inside; or "first": a maximal set of the surface comes first, and the inside is filled

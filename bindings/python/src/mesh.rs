@@ -187,7 +187,8 @@ impl Mesh {
     /// For each position whether it is inside the mesh: bool, shape (n,).
     ///
     /// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles, without rounding. In any
-    /// other mesh the generalised winding number is at least 1/2, or at most -1/2, up to .02.
+    /// other mesh the generalised winding number is at least 1/2, or at most -1/2, up to .02 if the boundary has more than 2,048
+    /// edges.
     ///
     /// positions: shape (n, 3). threads: 0 takes one per core. progress: called with the share that is done, 0 to 1; False
     ///     cancels.

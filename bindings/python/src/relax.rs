@@ -458,7 +458,8 @@ pub(crate) fn volume_relax(
     Points::cuboid(py, relaxed.into(), &set.frame)?.with_report(py, DcrReport::from(report))
 }
 
-/// Moves points inside a closed mesh until they are evenly spread. None leaves the inside, which is decided exactly.
+/// Moves points inside a mesh until they are evenly spread. None leaves the inside, of which caps close holes as in
+/// volume_sample_inside.
 ///
 /// mesh: as in volume_sample_inside. An even number of triangles must share each edge.
 /// positions: the points, float32, shape (n, 3), inside the mesh; those that are fixed only in the box around it, those that slide

@@ -15,7 +15,7 @@ use crate::watch::Watch;
 /// The side of voxels at a surface, in radii, that may stay open if nothing is said.
 const TOLERANCE: f64 = 0.0625;
 
-/// A maximal set of a cuboid, or of the inside of a closed mesh, whose radius varies: two samples are at least the mean of their
+/// A maximal set of a cuboid, or of the inside of a mesh, whose radius varies: two samples are at least the mean of their
 /// radii apart, and no place is farther from all of them than the mean of its radius and that of the sample.
 ///
 /// grid_values: float32, shape (z, y, x), above 0: the radius on a grid over the cuboid, or over the box around the mesh, linear

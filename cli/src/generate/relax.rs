@@ -46,7 +46,7 @@ pub struct Relax {
         conflicts_with_all = ["domain", "mesh", "neighbourhood", "spectrum"]
     )]
     cuboid: Option<Vec<f64>>,
-    /// The closed mesh that the points are inside of and do not leave: OBJ, PLY, STL, OFF or GLB.
+    /// The mesh that the points are inside of and do not leave: OBJ, PLY, STL, OFF or GLB.
     #[arg(
         long, value_name = "MESH",
         conflicts_with_all = ["cuboid", "domain", "bounded", "mesh", "neighbourhood", "spectrum"]

@@ -37,8 +37,8 @@ pub struct Volume {
     common: Common,
     #[command(flatten)]
     domain: CuboidArgs,
-    /// A closed mesh, OBJ, PLY or STL, whose inside is sampled in place of a cuboid. The box around it is the domain of the
-    /// output.
+    /// A mesh, OBJ, PLY or STL, whose inside is sampled in place of a cuboid. Holes are closed by caps. The box around it is the
+    /// domain of the output.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded"])]
     inside: Option<PathBuf>,
     /// A maximal set of the surface of the mesh comes first, and the inside is filled around it. It takes a radius, and any

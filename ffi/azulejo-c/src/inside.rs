@@ -152,12 +152,12 @@ impl azulejo_volume_inside_options {
     }
 }
 
-/// Makes a maximal, conflict-free set of samples inside a mesh that is closed
-/// (azulejo_mesh_is_closed) and encloses something, x y z each: no place inside is farther from
-/// every sample than the radius and 7 float spacings, unless it is nearer to the surface, or to a
-/// shell's inner border, than the report's `depth`. No sample is outside (azulejo_mesh_contains),
-/// except those of the surface, which azulejo_psp_sample makes with the same radius and seed. The
-/// result has positions only. Count, order and given samples are as in azulejo_volume_sample.
+/// Makes a maximal, conflict-free set of samples inside a mesh that encloses something, x y z each:
+/// no place inside is farther from every sample than the radius and 7 float spacings, unless it is
+/// nearer to the surface, or a shell's inner border, than the report's `depth`. Holes are closed by
+/// caps, about where the winding number is 1/2, which count as surface; no sample is outside, except
+/// those of the surface without caps, which azulejo_psp_sample makes with the same radius and seed.
+/// The result has positions only. Count, order, given samples: as in azulejo_volume_sample.
 ///
 /// O(samples) time and memory, and O(triangles * log triangles) for the first call on a mesh.
 #[unsafe(no_mangle)]
@@ -208,8 +208,8 @@ pub unsafe extern "C" fn azulejo_mesh_is_closed(mesh: *const azulejo_mesh) -> u3
 /// Writes to `inside` for each of `count` points, x y z each, 1 if it is inside the mesh, else 0.
 /// Inside of a closed mesh are the points whose ray along +x crosses an odd number of triangles,
 /// without rounding: meshes that share a face share no point. In any other mesh the generalised
-/// winding number is at least 1/2, or at most -1/2, up to .02. O(triangles * log triangles) the
-/// first time, then about O(log triangles) for a point.
+/// winding number is at least 1/2, or at most -1/2, up to .02 if the boundary has more than 2,048
+/// edges. O(triangles * log triangles) the first time, then about O(log triangles) for a point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_contains(
     context: *const azulejo_context,

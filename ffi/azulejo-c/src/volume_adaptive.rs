@@ -80,7 +80,7 @@ pub unsafe extern "C" fn azulejo_volume_adaptive_options_init(
 }
 
 /// Makes a maximal set of samples, each with a radius of its own (azulejo_points_radii), of a
-/// cuboid or, unless `mesh` is NULL, inside a closed mesh. Rule and errors are those of
+/// cuboid or, unless `mesh` is NULL, inside a mesh. Rule and errors are those of
 /// azulejo_psp_adaptive_sample, the tolerance that of azulejo_volume_sample, inside a mesh with
 /// the radius of the place, and the change of the radius over it. A grid lies over the cuboid or
 /// the box around the mesh, its first and last radii on the faces, linear along each axis. A

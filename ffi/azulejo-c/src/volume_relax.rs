@@ -216,8 +216,8 @@ pub unsafe extern "C" fn azulejo_relax_inside_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// Relaxes points inside a closed mesh, as azulejo_volume_relax does in a bounded domain. None
-/// leaves the inside (azulejo_mesh_contains). Clustered ones are not redistributed.
+/// Relaxes points inside a mesh, as azulejo_volume_relax does in a bounded domain. None leaves the
+/// inside (azulejo_volume_sample_inside). Clustered ones are not redistributed.
 /// positions: those that are fixed in the box around the mesh, those that slide on its surface.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_volume_relax_inside(

@@ -94,6 +94,8 @@ impl Near {
 #[derive(Clone, Copy)]
 pub struct Inside<'a> {
     interior: &'a Interior,
+    /// What points slide on.
+    surface: &'a Interior,
     volume: f64,
     bounds: [[f32; 3]; 2],
     torus: VolumeTorus,
@@ -106,9 +108,14 @@ pub struct Inside<'a> {
 }
 
 impl<'a> Inside<'a> {
-    /// Points inside a closed mesh: those that are fixed, in the box around it, and those that slide, on its surface. Either list may
-    /// be empty: none then is.
-    pub fn new(mesh: &Mesh, interior: &'a Interior, points: &'a [[f32; 3]], [fixed, sliding]: [&'a [bool]; 2]) -> Self {
+    /// Points inside a closed mesh: those that are fixed, in the box around it, and those that slide, on a surface: that of the mesh
+    /// without its caps. Either list may be empty: none then is.
+    pub fn new(
+        mesh: &Mesh,
+        [interior, surface]: [&'a Interior; 2],
+        points: &'a [[f32; 3]],
+        [fixed, sliding]: [&'a [bool]; 2],
+    ) -> Self {
         let (bounds, volume) = (mesh.bounds(), interior.volume());
         let [low, high] = [bounds.0, bounds.1].map(|corner| corner.map(f64::from));
         let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
@@ -120,6 +127,7 @@ impl<'a> Inside<'a> {
         let unit = torus.unit().into_iter().fold(0.0, f64::max);
         Self {
             interior,
+            surface,
             volume,
             bounds: [bounds.0, bounds.1],
             torus,
@@ -170,7 +178,7 @@ impl<'a> Inside<'a> {
     /// True if a point is as near to the surface as the points that it holds back.
     fn is_on_surface(&self, point: [f32; 3]) -> bool {
         let within = (STANDOFF + self.margin) * self.torus.spacing();
-        self.interior.nearest(point.map(f64::from), within).is_some()
+        self.surface.nearest(point.map(f64::from), within).is_some()
     }
 
     /// The freedom of a point of the user's order.
@@ -259,7 +267,7 @@ impl<'a> Inside<'a> {
     /// The place of the surface nearest to one, if it is near enough, in spacings from the corner of the torus, and the normal there.
     fn foot(&self, place: DVec3, within: f64) -> Option<(DVec3, DVec3)> {
         let (spacing, min) = (self.torus.spacing(), DVec3::from_array(self.torus.domain().min));
-        let (foot, normal) = self.interior.nearest_facing((min + spacing * place).to_array(), within * spacing)?;
+        let (foot, normal) = self.surface.nearest_facing((min + spacing * place).to_array(), within * spacing)?;
         Some(((DVec3::from_array(foot) - min) / spacing, normal.into()))
     }
 

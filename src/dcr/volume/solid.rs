@@ -1,4 +1,4 @@
-//! Relaxation inside of closed meshes.
+//! Relaxation inside of meshes.
 
 use crate::check;
 use crate::dcr::relaxation::Limits;
@@ -11,7 +11,6 @@ use crate::job::{Context, Progress};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::setters::setters;
-use crate::volume::check_closed;
 
 /// The options of [`relax_inside`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,14 +60,15 @@ setters!(InsideOptions<'a> {
 const BYTES_PER_POINT: f64 = 350.0;
 const BYTES_PER_TRIANGLE: f64 = 200.0;
 
-/// Relaxes points inside a closed mesh ([`Mesh::is_closed`]) as [`relax`](fn@super::relax) does those of a bounded cuboid: returns as
+/// Relaxes points inside a mesh as [`relax`](fn@super::relax) does those of a bounded cuboid: returns as
 /// many, in the same order, of which those that are `fixed` are where they were.
 ///
 /// Those that are `sliding` lie on the surface, before and after. Before: no farther from it than 0.001 spacings; after: than two
 /// float spacings of the box around the mesh, and 10^-7 of its size. They pass edges, and are pushed by all others, but do not
 /// change to another sheet.
 ///
-/// All others are inside, before and after, by [`Interior::contains`] of the returned floats: a step that would leave the inside ends
+/// All others are inside, before and after, by [`Interior::contains`] of the returned floats, of the mesh with the caps that close its
+/// holes in [`volume::sample_inside`](crate::volume::sample_inside); no point slides on a cap. A step that would leave the inside ends
 /// at the surface and goes on along it, or is shortened. Those that are fixed lie anywhere in the box around the mesh; the others are
 /// pushed by them twice as far as by each other.
 ///
@@ -84,7 +84,7 @@ const BYTES_PER_TRIANGLE: f64 = 200.0;
 /// surface; O(n + t) memory. The inside is made once for a mesh, in O(t log t): [`Interior::of`].
 ///
 /// # Errors
-/// [`Error::InvalidArgument`] for options out of their range, for a `mesh` that is not closed, for a `fixed` or `sliding` of another
+/// [`Error::InvalidArgument`] for options out of their range, for a `fixed` or `sliding` of another
 /// length than the points, for a point that is both, and for `positions` that are not finite, outside, or sliding off the surface
 /// (with the index); [`Error::TooLarge`] for more than 2^32 - 1 points or the available memory.
 pub fn relax_inside(
@@ -95,7 +95,6 @@ pub fn relax_inside(
     progress: Option<&Progress>,
 ) -> Result<(Vec<[f32; 3]>, Report)> {
     options.check()?;
-    check_closed(mesh)?;
     let &InsideOptions { max_iterations, seed, fixed, sliding, .. } = options;
     for (name, entries) in [("fixed", fixed), ("sliding", sliding)] {
         if !entries.is_empty() && entries.len() != points.len() {
@@ -107,11 +106,13 @@ pub fn relax_inside(
     }
     check::indexable("positions", "points", points.len())?;
     check::finite("positions", "point", points)?;
-    let triangles = mesh.triangles().len();
+    let capped = mesh.with_caps()?;
+    let solid = capped.as_deref().unwrap_or(mesh);
+    let triangles = solid.triangles().len();
     let bytes = BYTES_PER_POINT * points.len() as f64 + BYTES_PER_TRIANGLE * triangles as f64;
     memory::require(bytes, "positions", &format!("{} points inside {triangles} triangles", points.len()))?;
-    let interior = Interior::of(mesh);
-    let inside = Inside::new(mesh, &interior, points, [fixed, sliding]);
+    let (interior, surface) = (Interior::of(solid), Interior::of(mesh));
+    let inside = Inside::new(solid, [&interior, &surface], points, [fixed, sliding]);
     inside.check(context)?;
     let mut set = VolumeRelaxation::new(*inside.torus(), points, max_iterations, seed).inside(inside);
     let domain = inside.torus().domain();

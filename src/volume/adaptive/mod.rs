@@ -1,4 +1,4 @@
-//! Adaptive sampling of volumes: maximal Poisson-disk samples of cuboids, and of the inside of closed meshes, whose radius
+//! Adaptive sampling of volumes: maximal Poisson-disk samples of cuboids, and of the inside of meshes, whose radius
 //! varies.
 //!
 //! The rule is that of [meshes](crate::psp::adaptive), thesis §3.4.4. The radius is given by a function of the position with

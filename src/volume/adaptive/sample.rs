@@ -10,7 +10,6 @@ use crate::points::Points;
 use crate::volume::adaptive::complete::complete;
 use crate::volume::adaptive::options::{InsideOptions, Options};
 use crate::volume::body::Body;
-use crate::volume::solid::{check_closed, encloses_nothing};
 use crate::volume::{InsideOptions as Uniform, Report};
 
 /// A maximal set of samples of a cuboid, each with its own radius ([`Points::radii`]), the values of the function at the returned
@@ -39,15 +38,16 @@ pub fn sample(context: &Context, options: &Options, progress: Option<&Progress>)
     Ok((points, report(bounds, &stopwatch)))
 }
 
-/// A maximal set of samples of the inside of a closed mesh ([`Mesh::is_closed`]), each with its own radius.
+/// A maximal set of samples of the inside of a mesh, each with its own radius. Holes are closed as in
+/// [`volume::sample_inside`](crate::volume::sample_inside).
 ///
 /// As [`sample`], in the box around the mesh, of which the function has to give the radius everywhere. Each sample lies inside
-/// ([`Interior::contains`](crate::Interior::contains)). No place inside is farther from every sample than the mean of both
+/// ([`Interior::contains`](crate::Interior::contains) of the mesh with its caps). No place inside is farther from every sample than the mean of both
 /// radii, with a tolerance of 7 float spacings, unless it is nearer to the surface than sqrt(3)
 /// [tolerances](InsideOptions::tolerance) of its radius and four float spacings.
 ///
 /// # Errors
-/// Those of [`sample`], and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a `mesh` that is not closed or encloses nothing, and for a
+/// Those of [`sample`], and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a `mesh` that encloses nothing, and for a
 /// `tolerance` out of range.
 pub fn sample_inside(
     context: &Context,
@@ -57,11 +57,7 @@ pub fn sample_inside(
 ) -> Result<(Points<3>, Report)> {
     let (stopwatch, &InsideOptions { radius, tolerance, seed }) = (Stopwatch::start(), options);
     Uniform::new(1.0).tolerance(tolerance).check()?;
-    check_closed(mesh)?;
-    let body = Body::new(mesh, tolerance, 0.0);
-    if body.encloses_nothing() {
-        return Err(encloses_nothing());
-    }
+    let body = Body::new(mesh, tolerance, 0.0)?;
     let (points, bounds) = complete(context, &body.domain, radius, Some(&body), seed, progress)?;
     Ok((points, report(bounds, &stopwatch)))
 }
