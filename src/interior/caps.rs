@@ -417,11 +417,13 @@ mod tests {
             let capped = mesh.with_caps().unwrap().unwrap();
             let interior = Interior::of(&mesh);
             let new = &capped.positions()[mesh.positions().len()..];
-            let inner: Vec<_> =
-                new.iter().filter(|p| (5.5..14.5).contains(&p[0]) && (5.5..14.5).contains(&p[1])).collect();
+            // Within an edge of the rim they may be off.
+            let is_inner = |p: &&[f32; 3]| (6.0..14.0).contains(&p[0]) && (6.0..14.0).contains(&p[1]);
+            let inner: Vec<_> = new.iter().filter(is_inner).collect();
             assert!((100..3000).contains(&inner.len()), "{}", inner.len());
-            let off = inner.iter().filter(|&&&place| (interior.winding(place).abs() - 0.5).abs() > 1e-2);
-            assert_eq!(off.count(), 0);
+            let winding = |place: [f32; 3]| (place, interior.winding(place).abs());
+            let off: Vec<_> = inner.iter().map(|&&p| winding(p)).filter(|(_, w)| (w - 0.5).abs() > 1e-2).collect();
+            assert!(off.is_empty(), "{off:?}");
             assert_eq!(new.iter().all(|place| place[2] == 4.0), flat);
         }
     }

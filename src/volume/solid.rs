@@ -60,7 +60,7 @@ pub struct InsideReport {
 /// that are less deep than sqrt(3) tolerances of its own covering radius.
 ///
 /// O(n) for n samples and O(t log t) for t triangles, the latter once for a mesh: [`Interior::of`](crate::Interior::of). Caps,
-/// of up to 10^4 triangles each, are also made once: the five of the Stanford bunny took 0.1 s.
+/// of up to 10^4 triangles each, are also made once: the five of the Stanford bunny in some 0.15 s.
 ///
 /// # Errors
 /// [`Error::InvalidArgument`](crate::Error::InvalidArgument) for a `mesh` that encloses nothing and for an option out of range, also for

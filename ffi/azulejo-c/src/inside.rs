@@ -155,7 +155,7 @@ impl azulejo_volume_inside_options {
 /// Makes a maximal, conflict-free set of samples inside a mesh that encloses something, x y z each:
 /// no place inside is farther from every sample than the radius and 7 float spacings, unless it is
 /// nearer to the surface, or a shell's inner border, than the report's `depth`. Holes are closed by
-/// caps, about where the winding number is 1/2, which count as surface; no sample is outside, except
+/// caps, about where the winding number is 1/2, which count as surface. No sample is outside but
 /// those of the surface without caps, which azulejo_psp_sample makes with the same radius and seed.
 /// The result has positions only. Count, order, given samples: as in azulejo_volume_sample.
 ///

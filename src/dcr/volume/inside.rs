@@ -94,7 +94,7 @@ impl Near {
 #[derive(Clone, Copy)]
 pub struct Inside<'a> {
     interior: &'a Interior,
-    /// What points slide on.
+    /// That of the mesh that points slide on, without caps.
     surface: &'a Interior,
     volume: f64,
     bounds: [[f32; 3]; 2],

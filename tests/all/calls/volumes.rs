@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use azulejo::volume::adaptive::Radius as Varying;
 use azulejo::{Classes, Domain, Interior, volume};
 
-use super::{CUBE, Call, MESH, SOLID, said, samples};
+use super::{CUBE, Call, SHEET, SOLID, said, samples};
 
 static EQUAL: LazyLock<Classes> = LazyLock::new(|| Classes::of_radii(&[0.08, 0.08], 1.0).unwrap());
 /// Radii that grow from the lower to the upper face.
@@ -69,7 +69,7 @@ pub const VOLUME: &[Call] = &[
         refused: &[
             ("mesh: ", |c, p| {
                 let options = volume::adaptive::InsideOptions::new(WIDENING);
-                said(volume::adaptive::sample_inside(c, &MESH, &options, p))
+                said(volume::adaptive::sample_inside(c, &SHEET, &options, p))
             }),
             ("tolerance: ", |c, p| {
                 let options = volume::adaptive::InsideOptions::new(WIDENING).tolerance(0.0);
@@ -89,7 +89,7 @@ pub const VOLUME: &[Call] = &[
             ))
         },
         refused: &[
-            ("mesh: ", |c, p| said(volume::sample_inside(c, &MESH, &volume::InsideOptions::new(0.1), p))),
+            ("mesh: ", |c, p| said(volume::sample_inside(c, &SHEET, &volume::InsideOptions::new(0.1), p))),
             ("radius: ", |c, p| said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(-0.1), p))),
             ("tolerance: ", |c, p| {
                 said(volume::sample_inside(c, &SOLID, &volume::InsideOptions::new(0.1).tolerance(2.0), p))
