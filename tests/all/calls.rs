@@ -494,7 +494,7 @@ const RELAXATION: &[Call] = &[
             ("positions: ", |c, p| {
                 said(dcr::volume::relax_inside(c, &SOLID, &Default::default(), &[[0.5, 9.5, 0.5]], p))
             }),
-            ("mesh: ", |c, p| said(dcr::volume::relax_inside(c, &SHEET, &Default::default(), &[], p))),
+            ("positions: ", |c, p| said(dcr::volume::relax_inside(c, &SHEET, &Default::default(), &[[0.5; 3]], p))),
             ("sliding: ", |c, p| {
                 let options = dcr::volume::InsideOptions::default().sliding(&[true]);
                 said(dcr::volume::relax_inside(c, &SOLID, &options, &IN_SOLID, p))
