@@ -397,12 +397,13 @@ fn surfaces() {
         let mut options = defaults(azulejo_volume_inside_options_init);
         let mut report = defaults(azulejo_volume_inside_report_init);
         (options.radius, options.tolerance, options.surface) = (0.9, 0.5, AZULEJO_SURFACE_FIRST);
-        let (handle, open) = (context.get(), mesh.get());
-        let refused =
-            azulejo_volume_sample_inside(handle, open, &options, &mut std::ptr::null_mut(), std::ptr::null_mut());
-        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
+        let handle = context.get();
         let corners = [[0.0f32, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
         let faces = [[0u32, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let flat = made(|out| azulejo_mesh_create(corners.as_ptr().cast(), 4, 12, faces.as_ptr().cast(), 1, out));
+        let (none, unread) = (&mut std::ptr::null_mut(), std::ptr::null_mut());
+        let refused = azulejo_volume_sample_inside(handle, flat.get(), &options, none, unread);
+        assert_eq!(refused, AZULEJO_ERROR_INVALID_ARGUMENT);
         let solid = made(|out| azulejo_mesh_create(corners.as_ptr().cast(), 4, 12, faces.as_ptr().cast(), 4, out));
         assert_eq!(solid.read(azulejo_mesh_is_closed), 1);
         let count = read_and_free(made(|out| {
