@@ -151,7 +151,7 @@ def test_a_far_mesh_keeps_its_origin():
         (dict(surface="second"), "surface"),
         (dict(surface="first", order="progressive"), "surface"),
         (dict(radius=-0.1), "radius"),
-        (dict(mesh=(CORNERS, FACES[1:])), "mesh"),
+        (dict(mesh=(CORNERS, FACES[:1])), "mesh"),
     ],
 )
 def test_bad_arguments_are_named(wrong, argument):
