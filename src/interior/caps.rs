@@ -61,7 +61,7 @@ struct Capped(Arc<Mesh>);
 
 impl Mesh {
     /// The mesh with caps in its holes, made the first time and then kept; none if it is closed. The triangles that the mask leaves out
-    /// are not in it. O(n log n), and for each ring of edges about 1,000 questions for winding numbers.
+    /// are not in it. O(n log n), and for each ring of edges some thousands of questions for winding numbers.
     pub(crate) fn with_caps(&self) -> Result<Option<Arc<Self>>> {
         let sides = self.sides();
         if sides.odd_edges == 0 {
