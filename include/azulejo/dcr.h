@@ -1,7 +1,5 @@
-/*
- * DCR: relaxation of point sets in the plane, with a density, and on meshes.
- * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
- */
+/* DCR: relaxation of point sets in the plane, with a density, and on meshes.
+ * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h. */
 
 #ifndef AZULEJO_DCR_H
 #define AZULEJO_DCR_H
@@ -39,16 +37,15 @@ extern "C" {
 #define AZULEJO_VISITS_BOTH_ENDS 0
 
 /// An edge is visited from one end, the same in every step, chosen by a hash of the seed and the
-/// two points. Points move about half as far in a step, and the constant distributions differ with
-/// Delaunay neighbours too.
+/// two points. Points move about half as far in a step.
 #define AZULEJO_VISITS_ONE_END 1
 
 /// A set has converged when the motion falls to the tolerance.
 #define AZULEJO_CONVERGENCE_MOTION 0
 
 /// A set has converged when ten times in succession the variance of the distances to the nearest
-/// point changes by less than 0.1 per cent in a step and more than 99 per cent of the points move
-/// by less than 0.01 d_max (thesis section 4.4.2). Sets of a few hundred points may never do so.
+/// point changes by less than 0.1 % in a step and more than 99 % of the points move by less than
+/// 0.01 d_max (thesis section 4.4.2). Sets of a few hundred points may never do so.
 #define AZULEJO_CONVERGENCE_VARIANCE 1
 
 /// The set converged, or there was nothing to move. With AZULEJO_METHOD_MOMENTUM and Delaunay
@@ -70,17 +67,16 @@ typedef struct azulejo_dcr_options {
     double domain_max[2]; ///< The upper corner, as in azulejo_plane_set; default 1 1.
     uint32_t neighbourhood; ///< An AZULEJO_NEIGHBOURHOOD_ constant; default Delaunay.
     uint32_t method; ///< An AZULEJO_METHOD_ constant; default momentum.
-    /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
-    /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
-    /// ends earlier when the set has converged.
+    /// The largest number of steps; default 100, enough for AZULEJO_METHOD_MOMENTUM from any
+    /// points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are.
     uint32_t max_iterations;
     uint32_t reserved; ///< Must be 0.
-    /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
-    /// azulejo_dcr_relax_density those of a clustered set's redistribution; default 0.
+    /// It parts coincident points, and draws the points of azulejo_dcr_scatter and those to which
+    /// azulejo_dcr_relax_density moves clustered ones; default 0.
     uint64_t seed;
-    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
-    /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
-    /// with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
+    /// The motion (see the report) at which the set has converged; 0 makes all steps. Any negative
+    /// number, such as the default -1, selects 0.001, or with AZULEJO_METHOD_THESIS 0.02 for
+    /// Delaunay and 0.005 for nearest neighbours.
     double tolerance;
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
@@ -90,7 +86,7 @@ typedef struct azulejo_dcr_options {
     double attraction_radius;
     double step; ///< The displacement by a tension of 1; above 0, at most 1; default 0.05.
     /// The factor of `step` from one step to the next; above 0, at most 1; default 1. All steps
-    /// together are no longer than step / (1 - decay); from a random start about 10 are needed.
+    /// together are no longer than step / (1 - decay); a random start needs about 10.
     double decay;
     uint32_t neighbours; ///< Of AZULEJO_NEIGHBOURHOOD_NEAREST: their number; at least 1; default 6.
     /// An AZULEJO_DISTRIBUTION_ constant (thesis fig. 4.19); default activeness.
@@ -110,33 +106,28 @@ typedef struct azulejo_dcr_report {
     double motion;
     /// The smallest distance between two points; infinite for fewer than two.
     double smallest_distance;
-    /// The smallest distance in units of d_max: about 0.77 for a maximal Poisson-disk set, at most
-    /// 1 on a periodic domain; infinite for fewer than two points.
+    /// The same in units of d_max: about 0.77 for a maximal Poisson-disk set, at most 1 on a torus.
     double rho;
     /// The covering radius in units of d_max; infinite for no point.
     double relative_covering_radius;
 } azulejo_dcr_report;
 
-/// Writes the defaults.
 azulejo_status azulejo_dcr_options_init(azulejo_dcr_options *options, size_t struct_size);
 
-/// Writes zeros and the size.
 azulejo_status azulejo_dcr_report_init(azulejo_dcr_report *report, size_t struct_size);
 
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
-/// the set has converged or all steps are made, with which the call succeeds as well (thesis
-/// chapter 4). AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which
-/// points are crowded in some places and missing in others: any set ends as a random one does, and
-/// after about the same time.
+/// the set has converged or all steps are made (thesis chapter 4). AZULEJO_METHOD_MOMENTUM levels a
+/// clustered set before the first step: any set ends as a random one, about as soon.
 /// - positions: the points, x y each.
 /// - out: the points, in the same order. With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours, of
-///   the set before the first step and the states after whole steps the one in which the fewest
-///   points have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius
-///   above 0.67 d_max; otherwise the state after the last whole step.
+///   the states before and after whole steps the one in which the fewest points have a neighbour
+///   closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max; otherwise
+///   the last.
 /// - O(count) time for each step, O(count * log count) where the triangulation is built again:
 ///   while more than 64 points have holes as wide as the domain, with AZULEJO_METHOD_THESIS also
-///   after steps that turn a triangle over, as the first from random points do. A bounded domain
-///   takes up to four times the time and memory of a periodic one. O(count) memory.
+///   after steps that turn a triangle over. A bounded domain takes up to four times the time and
+///   memory of a periodic one. O(count) memory.
 azulejo_status azulejo_dcr_relax(const azulejo_context *context,
                                  const azulejo_dcr_options *options,
                                  const float *positions,
@@ -146,19 +137,17 @@ azulejo_status azulejo_dcr_relax(const azulejo_context *context,
 
 /// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union of
 /// all points and each class by itself get more even, though less so than a set of one class. From
-/// maximal sets of 2 to 7 classes of a periodic domain, rho ends above 0.7 and the covering radius
-/// below 0.82 d_max, in the union and in each class. No distance between points of two classes is
-/// promised. A class that is clustered is levelled before the first step. Only
-/// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. Source: the constraints of thesis
-/// chapter 4 for each of the sets; several classes after Wei 2010.
+/// maximal sets of 2 to 7 classes of a torus, rho ends above 0.7 and the covering radius below 0.82
+/// d_max, in the union and in each class. No distance of two classes is promised. A clustered class
+/// is levelled before the first step. Only AZULEJO_METHOD_MOMENTUM with
+/// AZULEJO_NEIGHBOURHOOD_DELAUNAY. Source: thesis chapter 4, with Wei 2010.
 /// - positions: the points, x y each.
 /// - classes: the class of each point, below class_count.
 /// - class_count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
 /// - class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
-///   `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
-///   number of points; infinite where a class has fewer than two points, or none.
-/// - out: the points after the last whole step, in the same order. Mostly all steps are made.
-/// - report: what the call did, with the figures of the union.
+///   `relative_covering_radius` of each class, in units of its own d_max.
+/// - out: the points after the last whole step, in the same order.
+/// - report: with the figures of the union.
 /// - O(count) memory, and about 2.5 times the time of azulejo_dcr_relax.
 azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
                                          const azulejo_dcr_options *options,
@@ -175,12 +164,10 @@ azulejo_status azulejo_dcr_relax_classes(const azulejo_context *context,
 /// azulejo_dcr_relax_to_correlation: g(r) = 1 + the integral of (P - 1) J0(2 pi frequency r)
 /// 2 pi frequency over the frequencies, r in units of 1 / sqrt(density) (Heck et al. 2013).
 /// - power: `count` numbers, 1 to 65536, at least 0: the power in bins of equal width from
-///   frequency 0 to `highest`, in units of sqrt(density); beyond them it is 1. One bin of power 0
-///   is step noise.
-/// - reach: where the last bin of `out` ends, above 0, in units of d_max. 12 is more than is
-///   matched.
+///   frequency 0 to `highest`, in units of sqrt(density); beyond it is 1. One 0 is step noise.
+/// - reach: where the last bin of `out` ends, above 0, in units of d_max: 12 is enough.
 /// - out: an array of `bins` numbers, 1 to 65536: g in the middles of bins of equal width from 0 to
-///   `reach`. Bins of 0.05 or less show all that is matched. Not written if the call fails.
+///   `reach`. Bins of 0.05 or less show all that is matched.
 /// - O(count * bins) time.
 azulejo_status azulejo_dcr_correlation_of_power(double highest,
                                                 const double *power,
@@ -191,9 +178,8 @@ azulejo_status azulejo_dcr_correlation_of_power(double highest,
 
 /// Moves points of a periodic domain until their pair correlation g(r), and with it the radial mean
 /// of their power, is the one wanted: general spectra (thesis eq. 4.3, 4.4 and 5.2; Heck et al.
-/// 2013). Uniform random points are a good start; a clustered set is levelled before the first
-/// step. Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults, which it
-/// does not use otherwise; `tolerance` is that of the residual, by default 0.005.
+/// 2013). Random points are a good start; a clustered set is levelled first. Method and
+/// neighbourhood must have their defaults; `tolerance` is that of the residual, by default 0.005.
 /// - positions: the points, x y each.
 /// - reach: where the last bin ends, above 0, in units of d_max. Correlations are matched up to
 ///   this, 11.2 d_max and 0.42 of the shorter period, whichever is least.
@@ -204,8 +190,7 @@ azulejo_status azulejo_dcr_correlation_of_power(double highest,
 ///   the difference of the power and the one wanted, both smoothed over about 1 / reach; 0 for
 ///   fewer than two points.
 /// - out: of the states, the one with the least residual, in the order of the positions. A
-///   correlation that no set has, such as one below 0, is no error: all steps are made, and
-///   `stopped` is not AZULEJO_STOPPED_CONVERGED.
+///   correlation that no set has is no error: `stopped` is not AZULEJO_STOPPED_CONVERGED then.
 /// - O(count * reach^2) time for each step, O(count) memory.
 azulejo_status azulejo_dcr_relax_to_correlation(const azulejo_context *context,
                                                 const azulejo_dcr_options *options,
@@ -224,15 +209,13 @@ azulejo_status azulejo_dcr_relax_to_correlation(const azulejo_context *context,
 /// - position: x y of a place in the domain.
 typedef double (*azulejo_density_fn)(void *user, const double *position);
 
-/// A density of points from place to place, in any unit: twice the density gives the same set.
-/// Densities are at least 0, and not 0 everywhere; where they are 0 no points are wanted. Either
+/// A density of points from place to place, in any unit: at least 0, and not 0 everywhere. Either
 /// `values` or `function` must be set; what is not set has its default, NULL or 0.
 typedef struct azulejo_density {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t reserved; ///< Must be 0.
     /// An image that is stretched over the domain, linear between the centres of its pixels:
-    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]). A
-    /// domain_max of `width` and `height` keeps its proportions, the default of 1 1 does not.
+    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]).
     const float *values;
     size_t width; ///< The number of pixels in a row.
     size_t height; ///< The number of rows.
@@ -240,11 +223,10 @@ typedef struct azulejo_density {
     void *function_user; ///< Passed to `function`.
 } azulejo_density;
 
-/// Writes the defaults.
 azulejo_status azulejo_density_init(azulejo_density *density, size_t struct_size);
 
 /// Makes `count` random points with a density: a start for azulejo_dcr_relax_density. O(count * log
-/// count) time, and O(count) calls of a density function; O(count) memory.
+/// count) time, O(count) calls of a density function and memory.
 azulejo_status azulejo_dcr_scatter(const azulejo_context *context,
                                    const azulejo_dcr_options *options,
                                    const azulejo_density *density,
@@ -253,20 +235,19 @@ azulejo_status azulejo_dcr_scatter(const azulejo_context *context,
 
 /// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
-/// Points whose density is about right, such as those of azulejo_dcr_scatter and
-/// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
-/// points that is far from it is redistributed before the first step, onto points as
-/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps. Only
+/// Points of about the density, as of azulejo_dcr_scatter and azulejo_psp_adaptive_sample, need the
+/// default 100 steps, others may need more. A set of more than 64 points that is far from it is
+/// redistributed before the first step, onto points of azulejo_dcr_scatter. Only
 /// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
-/// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
-/// place. Details of the density smaller than an eighth of d_max are lost.
+/// sqrt(density) elsewhere, increasing by at most half of the distance from place to place. Details
+/// smaller than an eighth of d_max are lost.
 /// - positions: the points, x y each.
 /// - out: the points after the last whole step, in the same order.
-/// - report: rho is the least of all distances over the mean of the spacings of the two points, the
-///   relative covering radius the largest circumradius of a Delaunay triangle over the spacing at
-///   its centre, without the limit to its increase; the motion is in units of d_max.
+/// - report: rho is the least of all distances over the mean of the two spacings, the relative
+///   covering radius the largest circumradius of a Delaunay triangle over the spacing at its
+///   centre, without the limit to its increase; the motion is in units of d_max.
 /// - O(count) calls of a density function, then O(count) time for each step, with a factor for
 ///   densities that vary by orders of magnitude; O(count) memory.
 azulejo_status azulejo_dcr_relax_density(const azulejo_context *context,
@@ -280,14 +261,13 @@ azulejo_status azulejo_dcr_relax_density(const azulejo_context *context,
 /// Options of azulejo_dcr_surface_relax.
 typedef struct azulejo_dcr_surface_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
-    /// The largest number of steps; default 100. The call ends earlier when the set has converged.
-    /// 0 returns the samples as they are, those outside their triangle moved to its edge.
+    /// The largest number of steps; default 100. 0: none moves, except into its triangle.
     uint32_t max_iterations;
-    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
-    /// Any negative number, such as the default -1, selects 0.0005.
+    /// The motion (see the report) at which the set has converged; 0 makes all steps. Any negative
+    /// number, such as the default -1, selects 0.0005.
     double tolerance;
-    /// Directions in which samples are separated that coincide or lie on edges of triangles, and
-    /// the points onto which clustered samples are redistributed; default 0.
+    /// It parts samples that coincide or lie on edges of triangles, and draws the points onto which
+    /// clustered samples are redistributed; default 0.
     uint64_t seed;
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
@@ -301,42 +281,34 @@ typedef struct azulejo_dcr_surface_report {
     uint32_t reserved; ///< Always 0.
     /// Half of the distance that samples moved over the last 10 steps, root mean square, in d_max.
     double motion;
-    /// The smallest straight distance between two samples, near on the surface or not: never less
-    /// than before the call; infinite for fewer than two samples.
+    /// The smallest straight distance between two samples: never less than before the call.
     double smallest_distance;
-    /// The smallest distance in units of d_max: about 0.77 for a maximal set, more for a relaxed
-    /// one, except on meshes with parts that are nearer to each other than samples are. Infinite
-    /// for fewer than two samples.
+    /// The same in units of d_max: about 0.77 for a maximal set, more for a relaxed one, except on
+    /// meshes with parts that are nearer to each other than samples are.
     double rho;
 } azulejo_dcr_surface_report;
 
-/// Writes the defaults.
 azulejo_status azulejo_dcr_surface_options_init(azulejo_dcr_surface_options *options,
                                                 size_t struct_size);
 
-/// Writes zeros and the size.
 azulejo_status azulejo_dcr_surface_report_init(azulejo_dcr_surface_report *report,
                                                size_t struct_size);
 
 /// Relaxes samples on a mesh: they move on the surface, away from neighbours that are too close and
-/// into holes, until the set has converged or all steps are made (the future work of thesis chapter
-/// 4). Neighbours are near on the surface, not on the other side of a thin wall. Triangles are
-/// connected by edges between the same two positions; any other edge is a boundary, which samples
-/// do not cross.
+/// into holes (the future work of thesis chapter 4). Neighbours are near on the surface, not on the
+/// other side of a thin wall. Triangles are connected by edges between the same two positions; any
+/// other edge is a boundary, which samples do not cross.
 ///
-/// No two samples get nearer to each other than the nearest two were before, on whatever sides of
-/// walls and boundaries: straight distances, in double arithmetic on the positions, without
-/// tolerance. More than 64 samples that are clustered on a part of the surface are redistributed
-/// over all of it before the first step, by the area of each connected part, where there is room
-/// for that at the same smallest distance.
-/// - triangles, barycentrics: one triangle and u v for each sample, as azulejo_points_triangles and
-///   azulejo_points_barycentrics return them. Barycentrics outside their triangle by at most 1e-6
-///   are moved onto it; those farther outside, and triangles that have no area or are left out by
-///   the mask, are refused.
+/// No two samples get nearer to each other than the nearest two were before: straight distances, in
+/// double arithmetic, without tolerance. More than 64 samples that are clustered are redistributed
+/// over all of the surface before the first step, by the area of each connected part, where there
+/// is room for that at the same smallest distance.
+/// - triangles, barycentrics: one triangle and u v for each sample. Barycentrics outside their
+///   triangle by at most 1e-6 are moved onto it; those farther outside, and triangles that have no
+///   area or are left out by the mask, are refused.
 /// - out: after the last whole step, in the same order, with normals, triangles and barycentrics.
 /// - O(triangles) time once, and O(count) for each step, somewhat more with many triangles between
-///   neighbouring samples. Steps take longer beside many boundaries and for clustered samples.
-///   O(count + triangles) memory.
+///   neighbours, beside boundaries and for clustered samples. O(count + triangles) memory.
 azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
                                          const azulejo_mesh *mesh,
                                          const azulejo_dcr_surface_options *options,
@@ -346,16 +318,14 @@ azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
                                          azulejo_points **out,
                                          azulejo_dcr_surface_report *report);
 
-/// The report of azulejo_dcr_remesh. The mesh is a manifold if `non_manifold_vertices` is 0, and
-/// closed if `boundary_edges` is 0 too: no edge has more than two triangles, and two triangles at
-/// an edge are wound alike.
+/// The report of azulejo_dcr_remesh. The mesh is a manifold if `non_manifold_vertices` is 0, closed
+/// if `boundary_edges` is 0 too, and wound alike at each edge.
 typedef struct azulejo_dcr_remesh_report {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t reserved; ///< Always 0.
     uint64_t triangles; ///< The triangles of the mesh.
     uint64_t disputed; ///< Those that not all of their three corners have in their Delaunay stars.
-    /// The triangles of stars that do not go with others and are not in the mesh.
-    uint64_t left_out;
+    uint64_t left_out; ///< Those of stars that are not in the mesh.
     uint64_t boundary_edges; ///< The edges with one triangle, which are the boundary.
     uint64_t inner_edges; ///< The edges with two triangles.
     uint64_t non_manifold_edges; ///< The edges with more than two triangles: always 0.
@@ -369,19 +339,16 @@ typedef struct azulejo_dcr_remesh_report {
     double mean_smallest_angle; ///< The mean of the triangles' smallest angles, in degrees.
 } azulejo_dcr_remesh_report;
 
-/// Writes zeros and the size.
 azulejo_status azulejo_dcr_remesh_report_init(azulejo_dcr_remesh_report *report,
                                               size_t struct_size);
 
 /// Makes a mesh whose vertices are samples of another mesh (thesis fig. 1.12): remeshing, to more
-/// triangles or to fewer. The samples must be spread about evenly, as maximal and relaxed sets are;
-/// relaxed ones give the better angles. The triangles are those of the samples' Delaunay stars that
-/// go together.
+/// triangles or to fewer. The samples must be spread about evenly, as maximal and, with better
+/// angles, relaxed sets are. Triangles are those of the samples' Delaunay stars that go together.
 ///
 /// Samples that resolve the features of a closed surface, wound alike everywhere, give a closed
-/// manifold of the same topology. Where they do not, as on thin blades and between faces that are
-/// wound against each other, there are holes. Triangles do not cross open boundaries: the new
-/// boundary is that of the outermost samples.
+/// manifold of the same topology; elsewhere, as on thin blades, there are holes. Triangles do not
+/// cross open boundaries: the new boundary is that of the outermost samples.
 /// - triangles, barycentrics: as for azulejo_dcr_surface_relax.
 /// - out: the new mesh. Vertex i is sample i, also if it has no triangle; triangles are wound as
 ///   those of the old mesh under their corners.

@@ -1,7 +1,5 @@
-/*
- * Masks: blue-noise masks, and halftones by them.
- * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
- */
+/* Masks: blue-noise masks, and halftones by them.
+ * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h. */
 
 #ifndef AZULEJO_MASK_H
 #define AZULEJO_MASK_H
@@ -12,19 +10,16 @@
 extern "C" {
 #endif
 
-/// A blue-noise mask: in each channel every pixel has a rank of its own. The mask is a torus, and
-/// can be repeated without seams.
+/// A blue-noise mask: a torus in each channel of which every pixel has a rank of its own.
 typedef struct azulejo_mask azulejo_mask;
 
 /// Options of azulejo_mask_create.
 typedef struct azulejo_mask_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
-    /// The number of independent masks, 1 to 64; default 1. One does not depend on the others.
-    uint32_t channels;
+    uint32_t channels; ///< The number of independent masks, 1 to 64; default 1.
     size_t width; ///< The pixels along x, 2 to 1024, or to 64 if depth is above 1; has no default.
     size_t height; ///< The pixels along y, 2 to 1024, or to 64 if depth is above 1; has no default.
-    /// The pixels along z, 1 to 64; default 1, a mask of the plane. Others are masks of space.
-    size_t depth;
+    size_t depth; ///< The pixels along z, 1 to 64; default 1: a mask of the plane.
     uint64_t seed; ///< Another seed gives another mask; default 0.
     double sigma; ///< The standard deviation of the filter in pixels, 0.5 to 4; default 1.5.
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
@@ -40,18 +35,16 @@ typedef struct azulejo_mask_report {
     double seconds; ///< Wall time in seconds.
 } azulejo_mask_report;
 
-/// Writes the defaults.
 azulejo_status azulejo_mask_options_init(azulejo_mask_options *options, size_t struct_size);
 
-/// Writes zeros and the size.
 azulejo_status azulejo_mask_report_init(azulejo_mask_report *report, size_t struct_size);
 
 /// Makes a blue-noise mask by void and cluster (Ulichney 1993). The pixels whose ranks are below
 /// any number are spread evenly over the torus and without a pattern. A mask of space has this in
-/// all three axes together; its slices are no masks of the plane, nor is it one of space and time.
+/// all three axes together, not in slices.
 /// - O(pixels * (s + log(pixels))) time for each channel, s being the pixels within six sigma of
-///   one, about 400 in the plane and 6,000 in space; 16 bytes of memory per pixel and channel.
-///   Threads share the channels.
+///   one, about 400 in the plane and 6,000 in space; 16 bytes per pixel and channel, which threads
+///   share.
 azulejo_status azulejo_mask_create(const azulejo_context *context,
                                    const azulejo_mask_options *options,
                                    azulejo_mask **out,
@@ -74,10 +67,9 @@ azulejo_status azulejo_mask_values(const azulejo_mask *mask, float *out);
 
 /// Dithers an image to few levels by ordered dithering. A number v becomes one of the levels beside
 /// v * (levels - 1), the upper one where the fraction exceeds 1 - t, t being the mask's number at
-/// the pixel. The mask is repeated over the image, and its channels over those of the image. Light
-/// adds up only where numbers are linear, which those of sRGB are not.
-/// - image: the numbers of all pixels, those of one pixel after each other; x grows first, then y,
-///   then z. 0 to 1; what lies outside is taken as the nearest of these.
+/// the pixel. The mask is repeated over the image, and its channels over those of the image.
+/// - image: the numbers of all pixels, 0 to 1, those of one pixel after each other; x grows first,
+///   then y, then z. Light adds up only where numbers are linear, unlike those of sRGB.
 /// - depth: 1 for an image of the plane.
 /// - channels: the numbers of a pixel, at least 1.
 /// - levels: 2 to 256.

@@ -1,7 +1,5 @@
-/*
- * Volumes: maximal Poisson-disk sets of cuboids and inside meshes, and their relaxation.
- * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h.
- */
+/* Volumes: maximal Poisson-disk sets of cuboids and inside meshes, and their relaxation.
+ * Generated from ffi/azulejo-c by cbindgen; do not edit. The conventions are in azulejo.h. */
 
 #ifndef AZULEJO_VOLUME_H
 #define AZULEJO_VOLUME_H
@@ -16,32 +14,19 @@ extern "C" {
 typedef struct azulejo_volume_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     uint32_t boundary; ///< An AZULEJO_BOUNDARY_ constant; default periodic.
-    /// Above 0, and at least 64 float spacings; it may exceed the domain. It has no default; with a
-    /// `count` it must be 0.
+    /// Above 0, and at least 64 float spacings; it has no default. With a `count` it must be 0.
     double radius;
     double domain_min[3]; ///< The lower corner of the domain, x y z; default 0 0 0.
-    /// The upper corner, above the lower one on all axes; default 1 1 1. No side may be longer than
-    /// 2^100 times another.
-    double domain_max[3];
+    double domain_max[3]; ///< The upper one, as in azulejo_space_set; default 1 1 1.
     uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
     size_t count; ///< The exact number of samples; default 0: as many as the radius gives.
-    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well.
-    uint32_t order;
+    uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
     uint32_t reserved; ///< Always 0.
-    /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8).
-    double quotient;
-    /// Samples that stand already, x y z each, anywhere; on a torus they wrap. NULL, the default,
-    /// for none. They are never moved, dropped or compared with each other, and are not returned:
-    /// new samples are at least the clearance from each of them, and every place of the domain is
-    /// within the radius of a new sample or within the clearance of a given one.
-    const float *given_positions;
-    /// The clearance of each, 0 or more; 0 has no effect. NULL, the default: all have the radius of
-    /// the set, which with a `count` is refused.
-    const double *given_clearances;
+    double quotient; ///< See "Order" in azulejo.h; default 0.
+    const float *given_positions; ///< See "Given samples" in azulejo.h.
+    const double *given_clearances; ///< The clearance of each; default NULL.
     size_t given_count; ///< The number of given samples; default 0.
     double leaf_size; ///< The shortest side of tiles in radii, 6 or more; default 0: not tiled.
 } azulejo_volume_options;
@@ -58,11 +43,9 @@ typedef struct azulejo_volume_report {
     double covering_radius;
 } azulejo_volume_report;
 
-/// Writes the defaults.
 azulejo_status azulejo_volume_options_init(azulejo_volume_options *options,
                                            size_t struct_size);
 
-/// Writes zeros and the size.
 azulejo_status azulejo_volume_report_init(azulejo_volume_report *report, size_t struct_size);
 
 /// Makes a maximal, conflict-free set of samples of a cuboid, x y z each: no place of it is farther
@@ -71,8 +54,7 @@ azulejo_status azulejo_volume_report_init(azulejo_volume_report *report, size_t 
 /// cuboid has more, since samples stand on its faces. If a period of a torus is below the radius, a
 /// sample does not conflict with its own image. Samples are sorted by blocks of 9 to 18 radii.
 ///
-/// With a `count`, in progressive order or around given samples see the options; around given
-/// samples the tolerance is 7 float spacings, in progressive order 9.
+/// Around given samples the tolerance is 7 float spacings, in progressive order 9.
 /// - O(samples) time and memory. Source: Ebeida et al. 2012.
 azulejo_status azulejo_volume_sample(const azulejo_context *context,
                                      const azulejo_volume_options *options,
@@ -97,9 +79,7 @@ typedef struct azulejo_volume_inside_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// An AZULEJO_SURFACE_ constant; default open. `first` takes a radius, and any order.
     uint32_t surface;
-    /// As in azulejo_volume_options, up to `quotient`: above 0, and at least 64 float spacings. It
-    /// has no default; with a `count` it must be 0.
-    double radius;
+    double radius; ///< As in azulejo_volume_options, up to `quotient`.
     /// Places inside may stay open that are nearer to the surface than sqrt(3) times this many
     /// radii: 1/256 to 1/2; default 0.0625. A smaller one takes longer.
     double tolerance;
@@ -109,11 +89,9 @@ typedef struct azulejo_volume_inside_options {
     size_t count; ///< The exact number of samples; default 0: as many as the radius gives.
     uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
     uint32_t reserved; ///< Always 0.
-    double quotient; ///< Of a progressive order: 1.02 to 1.5. Default 0: 2^(1/8).
-    /// Samples that stand already, x y z each, as in azulejo_volume_options. Default NULL.
-    const float *given_positions;
-    /// The clearance of each, 0 or more. Default NULL: the radius, which with a `count` is refused.
-    const double *given_clearances;
+    double quotient; ///< See "Order" in azulejo.h; default 0.
+    const float *given_positions; ///< See "Given samples" in azulejo.h.
+    const double *given_clearances; ///< The clearance of each; default NULL.
     size_t given_count; ///< Their number; default 0.
     double thickness; ///< Only places this near the surface, at least 1/256 radius; default 0: all.
 } azulejo_volume_inside_options;
@@ -132,11 +110,9 @@ typedef struct azulejo_volume_inside_report {
     double seconds; ///< Wall time in seconds.
 } azulejo_volume_inside_report;
 
-/// Writes the defaults.
 azulejo_status azulejo_volume_inside_options_init(azulejo_volume_inside_options *options,
                                                   size_t struct_size);
 
-/// Writes zeros and the size.
 azulejo_status azulejo_volume_inside_report_init(azulejo_volume_inside_report *report,
                                                  size_t struct_size);
 
@@ -188,7 +164,6 @@ typedef struct azulejo_volume_adaptive_options {
     void *progress_user; ///< Passed to the progress callback.
 } azulejo_volume_adaptive_options;
 
-/// Writes the defaults.
 azulejo_status azulejo_volume_adaptive_options_init(azulejo_volume_adaptive_options *options,
                                                     size_t struct_size);
 
@@ -215,10 +190,9 @@ typedef struct azulejo_volume_relax_options {
     /// The most steps; default 100. 0 returns the points as they are. Forces depend on it.
     uint32_t max_iterations;
     uint32_t reserved; ///< Must be 0.
-    /// The key by which coincident points are parted and clustered ones moved; default 0.
-    uint64_t seed;
-    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
-    /// Any negative number, such as the default -1, selects 0.001.
+    uint64_t seed; ///< It parts coincident points and moves clustered ones; default 0.
+    /// The motion (see the report) at which the set has converged; 0 makes all steps. Any negative
+    /// number, such as the default -1, selects 0.001.
     double tolerance;
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
@@ -233,10 +207,8 @@ typedef struct azulejo_volume_relax_report {
     uint32_t reserved; ///< Always 0.
     /// Half of the distance that points moved over the last 10 steps, root mean square, in d_fcc.
     double motion;
-    /// The smallest distance between two points; infinite for fewer than two.
-    double smallest_distance;
-    /// The same in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed one.
-    double rho;
+    double smallest_distance; ///< The smallest distance; infinite for fewer than two points.
+    double rho; ///< The same in d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed one.
 } azulejo_volume_relax_report;
 
 /// Options of azulejo_volume_relax_inside; as those of azulejo_volume_relax.
@@ -254,11 +226,9 @@ typedef struct azulejo_relax_inside_options {
     size_t sliding_count; ///< Default 0, as fixed_count.
 } azulejo_relax_inside_options;
 
-/// Writes the defaults.
 azulejo_status azulejo_volume_relax_options_init(azulejo_volume_relax_options *options,
                                                  size_t struct_size);
 
-/// Writes zeros and the size.
 azulejo_status azulejo_volume_relax_report_init(azulejo_volume_relax_report *report,
                                                 size_t struct_size);
 
@@ -276,7 +246,6 @@ azulejo_status azulejo_volume_relax(const azulejo_context *context,
                                     azulejo_points **out,
                                     azulejo_volume_relax_report *report);
 
-/// Writes the defaults.
 azulejo_status azulejo_relax_inside_options_init(azulejo_relax_inside_options *options,
                                                  size_t struct_size);
 

@@ -28,26 +28,25 @@ pub struct azulejo_psp_adaptive_options {
     pub struct_size: u32,
     /// As in azulejo_psp_options; default any.
     pub order: u32,
-    /// A radius for each vertex of the mesh, above 0. At the barycentrics u v of a sample on the
-    /// triangle (a, b, c) it is (1-u-v)*a + u*b + v*c, in double arithmetic. It may change
-    /// arbitrarily steeply. NULL, the default, if `radius_function` is set.
+    /// A radius for each vertex of the mesh, above 0, interpolated by the barycentrics in double
+    /// arithmetic. It may change arbitrarily steeply. Default NULL.
     pub vertex_radii: *const f32,
-    /// That of the vertices of the mesh. Must be 0, the default, if `radius_function` is set.
+    /// The number of vertices, or 0, the default.
     pub vertex_count: usize,
     /// NULL, the default, if `vertex_radii` is set.
     pub radius_function: azulejo_radius_fn,
     /// Passed to `radius_function`.
     pub radius_function_user: *mut c_void,
-    /// The smallest value of `radius_function`, above 0. Must be 0, the default, with vertex_radii.
+    /// Its smallest value, above 0. Must be 0, the default, with vertex_radii.
     pub smallest: f64,
     /// Its largest value. Must be 0, the default, with vertex_radii.
     pub largest: f64,
     /// The most by which `radius_function` changes per unit of distance between two places of a
-    /// triangle; 0, the default: it is constant on each triangle. Coverage is proved with it, so it
-    /// must hold: a violation that is detected makes the call fail, one that is not can leave gaps.
-    /// From about 1 on the work grows with its square, and from about 30 on it may be refused as
-    /// too much: for images and other data with edges vertex_radii are the better choice. At most
-    /// `smallest` / 24 per float spacing. Must be 0 with vertex_radii.
+    /// triangle; 0, the default: it is constant on each. Coverage is proved with it: a violation
+    /// that is detected makes the call fail, one that is not can leave gaps. From about 1 on the
+    /// work grows with its square, and from about 30 on it may be refused: for images and other
+    /// data with edges vertex_radii are better. At most `smallest` / 24 per float spacing. Must be
+    /// 0 with vertex_radii.
     pub slope: f64,
     /// As in azulejo_psp_options, from -1, the default, to 1.
     pub cosine: f64,
@@ -57,14 +56,13 @@ pub struct azulejo_psp_adaptive_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// As in azulejo_psp_options; default NULL: none. They act on all sides of a thin wall.
+    /// See "Given samples" in azulejo.h.
     pub given_positions: *const f32,
-    /// The clearance of each given sample, 0 or more; 0 has no effect. NULL, the default, only if
-    /// there are none: no radius could stand for it.
+    /// The clearance of each; required with them.
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
-    /// As in azulejo_psp_options, 1.02 to 1.5. Default 0: 2^(1/8).
+    /// See "Order" in azulejo.h; default 0.
     pub quotient: f64,
 }
 
@@ -98,22 +96,19 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 }
 
 /// Makes a maximal set of samples on a mesh, each with a radius of its own (thesis section 3.4.4).
-/// Embree is not used.
 ///
 /// Conflict-free: two samples are no closer than the mean of their radii. Maximal: no place of the
 /// surface is farther from every sample than the mean of the two radii, up to 6 float spacings and
 /// the change of the radius over that length; with vertex_radii, also up to 2^-22 of the largest
-/// difference of two radii on a triangle. Where the radius changes little from sample to sample
-/// there are about 0.6966 / radius^2 samples per unit of area. Radii above four times the diagonal
-/// of the mesh's box are reduced to that, those of vertices before interpolation.
+/// difference of two radii on a triangle. Where the radius changes little there are about 0.6966 /
+/// radius^2 samples per unit of area. Radii are at most four times the diagonal of the box.
 ///
-/// In progressive order the samples are sorted coarse to fine. Ranks are what all radii are
-/// multiplied by: with its radii times the i-th rank the prefix of i samples is conflict-free, and
-/// with all radii times `quotient` times that rank it is maximal (for i below 100 see
-/// azulejo_points_ranks). The last rank is 1 or a little more. log(diagonal / smallest radius) /
-/// log(quotient) levels visit all triangles and call `radius_function`; where radii are small
-/// beside the triangles it takes several times as long as a set in any order. Where the radius
-/// jumps, samples of the larger radius, which come first, leave fewer on the other side.
+/// In progressive order ranks are what all radii are multiplied by: with its radii times the i-th
+/// rank the prefix of i samples is conflict-free, and with all radii times `quotient` times that
+/// rank it is maximal (for i below 100 see azulejo_points_ranks). The last rank is 1 or a little
+/// more. Each of the log(diagonal / smallest radius) / log(quotient) levels visits all triangles
+/// and calls `radius_function`. Where the radius jumps, samples of the larger radius, which come
+/// first, leave fewer on the other side.
 ///
 /// out: the samples with normals, triangles, barycentrics and radii.
 ///
@@ -122,9 +117,8 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_options_init(
 /// O(samples + triangles) time for radii that change slowly; see `slope`.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for radii below 64 float spacings, and if
-/// `radius_function` returns a value outside `smallest` to `largest` or changes faster than
-/// `slope`; AZULEJO_ERROR_TOO_LARGE also for radii that change so fast that coverage would take
-/// thousands of evaluations per sample.
+/// `radius_function` leaves `smallest` to `largest` or changes faster than `slope`;
+/// AZULEJO_ERROR_TOO_LARGE also if coverage would take thousands of evaluations per sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_sample(
     context: *const azulejo_context,

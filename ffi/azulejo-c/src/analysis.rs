@@ -29,8 +29,7 @@ pub unsafe extern "C" fn azulejo_plane_smallest_distance(
 }
 
 /// The covering radius of points of the plane, on a periodic domain around the torus, too small by
-/// less than a billionth of it; infinite for no point. The set is maximal for every radius that is
-/// not smaller. Found exactly, by subdivision of the domain: O(count * log count) time.
+/// less than a billionth of it; infinite for no point. Exact, by subdivision: O(count * log count).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_covering_radius(
     context: *const azulejo_context,
@@ -67,15 +66,14 @@ pub unsafe extern "C" fn azulejo_space_smallest_distance(
 }
 
 /// The fraction of a surface that is farther than a radius from every sample, estimated by random
-/// probes: 0 to 1; 0 if the mask of the mesh leaves out everything. Probes do not prove coverage,
+/// probes; 0 if the mask of the mesh leaves out everything. Probes do not prove coverage,
 /// azulejo_mesh_coverage does. O(probes + count) time.
 ///
 /// positions: the samples, x y z each. They need not lie on the mesh.
 ///
 /// radius: above 0.
 ///
-/// probes: the number of random places of the surface that are examined, at least 1, uniform over
-/// its area.
+/// probes: the number of random places, at least 1, uniform over the area of the surface.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     context: *const azulejo_context,
@@ -101,8 +99,7 @@ pub unsafe extern "C" fn azulejo_mesh_uncovered_fraction(
     })
 }
 
-/// The coverage of a domain or a surface by disks or balls of a radius, from
-/// azulejo_plane_coverage, azulejo_space_coverage and azulejo_mesh_coverage.
+/// The coverage of a domain or a surface by disks or balls of a radius.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_coverage_report {
@@ -136,7 +133,7 @@ pub unsafe extern "C" fn azulejo_coverage_report_init(
 
 /// Counts the gaps that points of the plane leave: the connected parts of the domain, or of the
 /// torus, that are farther than a radius from all points, by more than 6 float spacings. With no
-/// gap the set is maximal for the radius, and all maximal sets of this library have none.
+/// gap the set is maximal for the radius, as all maximal sets of this library.
 ///
 /// radius: above 0.
 ///
@@ -164,8 +161,7 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 
 /// Counts the gaps that points of a cuboid leave: groups of places that are farther than a radius
 /// from all points, by more than 6 float spacings, each within half of the radius of another place
-/// of its group, on a periodic domain around the torus. With no gap the set is maximal for the
-/// radius, and all maximal sets of this library have none.
+/// of its group. With no gap the set is maximal for the radius.
 ///
 /// radius: above 0.
 ///
@@ -173,8 +169,8 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 /// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
 /// case. An empty set has an infinite radius and one gap.
 ///
-/// O(count * log count) time, and some 1,000 cells per radius^3 of uncovered volume: they are found
-/// exactly, by subdivision of the cuboid.
+/// O(count * log count) time, by subdivision, and some 1,000 cells per radius^3 of uncovered
+/// volume.
 ///
 /// Errors: AZULEJO_ERROR_TOO_LARGE also if more than about 25,000 * radius^3 is uncovered.
 #[unsafe(no_mangle)]
@@ -194,10 +190,7 @@ pub unsafe extern "C" fn azulejo_space_coverage(
     })
 }
 
-/// Counts the gaps that samples leave on a mesh, by straight distance: groups of places that are
-/// farther than a radius from all samples, by more than 6 float spacings, each within half of the
-/// radius of another place of its group. With no gap the set is maximal for the radius, and all
-/// maximal sets of this library have none.
+/// Counts the gaps that samples leave on a mesh, by straight distance, as azulejo_space_coverage.
 ///
 /// positions: the samples, x y z each. They need not lie on the mesh.
 ///
@@ -207,8 +200,7 @@ pub unsafe extern "C" fn azulejo_space_coverage(
 /// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
 /// case. An empty set has an infinite radius and at least one gap; no area has 0 and 0.
 ///
-/// O((count + triangles) * log count) time, and about 100 pieces per radius^2 of uncovered area:
-/// they are found exactly, by subdivision of the triangles.
+/// O((count + triangles) * log count) time, and about 100 pieces per radius^2 of gaps.
 ///
 /// Errors: AZULEJO_ERROR_TOO_LARGE also if more than about 600,000 * radius^2 is uncovered.
 #[unsafe(no_mangle)]

@@ -17,9 +17,8 @@ const _: () = assert!(AZULEJO_MAX_CLASSES as usize == Classes::MOST);
 /// classes i and j are at least r_ij apart, and no class can take another sample: for each class i
 /// every place is within r_ij of some sample of some class j, up to the rounding of maximal sets.
 ///
-/// Classes of larger own radii r_ii come first, those of smaller ones fill what these leave them;
-/// classes of equal radii are filled together. So shares jump where two radii become equal: of own
-/// radii 1 and 0.9 the first class has its full density.
+/// Classes of larger own radii r_ii come first, smaller ones fill what these leave; classes of
+/// equal radii are filled together. So shares jump where two radii become equal.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_classes {
@@ -31,9 +30,8 @@ pub struct azulejo_classes {
     /// Two classes whose radius is 0 ignore each other. azulejo_classes_radii makes such a matrix.
     pub radii: *const f64,
     /// On meshes, where each class may stand: for each triangle a number with a bit for each class,
-    /// the lowest for class 0. A class has no samples, and needs no cover, where its bit is 0;
-    /// other bits are ignored. If the mesh has a mask, both must allow a sample. NULL, the default:
-    /// all classes may stand everywhere.
+    /// the lowest for class 0. Where its bit is 0 a class has no samples and needs no cover. If the
+    /// mesh has a mask, both must allow a sample. NULL, the default: everywhere.
     pub masks: *const u32,
     /// That of the mesh's triangles, or 0, the default, for none.
     pub mask_count: usize,
@@ -144,17 +142,15 @@ fn checked_count(count: u32) -> Result<usize, Failure> {
     Err(Failure::invalid("count", format!("{count} classes; there are 1 to {AZULEJO_MAX_CLASSES}")))
 }
 
-/// Makes a matrix of radii from those of each class alone (Wei, "Multi-class blue noise sampling",
-/// 2010): two classes keep the distance that a set of all samples of both, and of all classes of
-/// larger radii, would have.
+/// Makes a matrix of radii from those of each class alone: two classes keep the distance that a set
+/// of all samples of both, and of all classes of larger radii, would have (Wei, 2010).
 ///
 /// own: for each class the distance of its samples, above 0.
 ///
 /// count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
 ///
-/// factor: multiplies the radii of two different classes, 0 or more; 1 for Wei's. Smaller factors
-/// leave each class nearer to the density that it has alone, and samples of two classes come nearer
-/// to each other.
+/// factor: multiplies the radii of two different classes, 0 or more; 1 for Wei's. With smaller ones
+/// each class has nearer to the density that it has alone.
 ///
 /// out: count * count numbers, row by row.
 #[unsafe(no_mangle)]

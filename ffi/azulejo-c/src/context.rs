@@ -36,13 +36,10 @@ impl azulejo_context {
 
 /// Makes a context and starts its threads.
 ///
-/// num_threads: 1 to 4096, or 0 for one per core. With 1 no thread is started: all work happens on
-/// the calling thread.
+/// num_threads: 1 to 4096, or 0 for one per core. With 1 all work happens on the calling thread.
 ///
-/// Embree's scenes are built by as many threads, but not more than there are cores. A bound on
-/// threads that the program has set for a device of its own (threads=) is suspended while a mesh
-/// exists on which a set has made iterations with AZULEJO_ENGINE_EMBREE, as Embree has one bound
-/// for the whole process.
+/// Embree's scenes are built by as many threads, at most one per core. While a mesh exists that
+/// Embree has traced, the bound on threads of a device of the program's own is suspended.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_context_create(num_threads: u32, out: *mut *mut azulejo_context) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -52,11 +49,11 @@ pub unsafe extern "C" fn azulejo_context_create(num_threads: u32, out: *mut *mut
     })
 }
 
-/// Makes a context that shares the threads of another one and adds a progress callback: for every
-/// call with this context, or with a psp handle made with it, whose options have no callback of
-/// their own. So calls without options, such as the analysis, can report progress and be cancelled.
+/// Makes a context that shares the threads of another one and adds a progress callback, for all
+/// calls with it, or with a handle made with it, whose options have none: so calls without options,
+/// such as the analysis, can report progress and be cancelled.
 ///
-/// context: the other context, which may be freed before this one. Its callback is not inherited.
+/// context: it may be freed before this one. Its callback is not inherited.
 ///
 /// progress: the callback, or NULL for none. Each thread that calls with the context calls it.
 #[unsafe(no_mangle)]

@@ -42,15 +42,14 @@ pub const AZULEJO_DISTRIBUTION_EIGHTY_TWENTY: u32 = 4;
 /// An edge is visited from each end that has the other one as a neighbour.
 pub const AZULEJO_VISITS_BOTH_ENDS: u32 = 0;
 /// An edge is visited from one end, the same in every step, chosen by a hash of the seed and the
-/// two points. Points move about half as far in a step, and the constant distributions differ with
-/// Delaunay neighbours too.
+/// two points. Points move about half as far in a step.
 pub const AZULEJO_VISITS_ONE_END: u32 = 1;
 
 /// A set has converged when the motion falls to the tolerance.
 pub const AZULEJO_CONVERGENCE_MOTION: u32 = 0;
 /// A set has converged when ten times in succession the variance of the distances to the nearest
-/// point changes by less than 0.1 per cent in a step and more than 99 per cent of the points move
-/// by less than 0.01 d_max (thesis section 4.4.2). Sets of a few hundred points may never do so.
+/// point changes by less than 0.1 % in a step and more than 99 % of the points move by less than
+/// 0.01 d_max (thesis section 4.4.2). Sets of a few hundred points may never do so.
 pub const AZULEJO_CONVERGENCE_VARIANCE: u32 = 1;
 
 /// Options of azulejo_dcr_relax, azulejo_dcr_relax_classes, azulejo_dcr_relax_density and
@@ -72,18 +71,17 @@ pub struct azulejo_dcr_options {
     pub neighbourhood: u32,
     /// An AZULEJO_METHOD_ constant; default momentum.
     pub method: u32,
-    /// The largest number of steps; default 100, which is enough for AZULEJO_METHOD_MOMENTUM from
-    /// any points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are. The call
-    /// ends earlier when the set has converged.
+    /// The largest number of steps; default 100, enough for AZULEJO_METHOD_MOMENTUM from any
+    /// points; AZULEJO_METHOD_THESIS may need 1000. 0 returns the points as they are.
     pub max_iterations: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Directions in which coincident points are separated, for azulejo_dcr_scatter the points, for
-    /// azulejo_dcr_relax_density those of a clustered set's redistribution; default 0.
+    /// It parts coincident points, and draws the points of azulejo_dcr_scatter and those to which
+    /// azulejo_dcr_relax_density moves clustered ones; default 0.
     pub seed: u64,
-    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
-    /// Any negative number, such as the default -1, selects the tolerance of the method: 0.001, or
-    /// with AZULEJO_METHOD_THESIS 0.02 for Delaunay and 0.005 for nearest neighbours.
+    /// The motion (see the report) at which the set has converged; 0 makes all steps. Any negative
+    /// number, such as the default -1, selects 0.001, or with AZULEJO_METHOD_THESIS 0.02 for
+    /// Delaunay and 0.005 for nearest neighbours.
     pub tolerance: f64,
     /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
@@ -96,7 +94,7 @@ pub struct azulejo_dcr_options {
     /// The displacement by a tension of 1; above 0, at most 1; default 0.05.
     pub step: f64,
     /// The factor of `step` from one step to the next; above 0, at most 1; default 1. All steps
-    /// together are no longer than step / (1 - decay); from a random start about 10 are needed.
+    /// together are no longer than step / (1 - decay); a random start needs about 10.
     pub decay: f64,
     /// Of AZULEJO_NEIGHBOURHOOD_NEAREST: their number; at least 1; default 6.
     pub neighbours: u32,
@@ -245,8 +243,7 @@ pub struct azulejo_dcr_report {
     pub motion: f64,
     /// The smallest distance between two points; infinite for fewer than two.
     pub smallest_distance: f64,
-    /// The smallest distance in units of d_max: about 0.77 for a maximal Poisson-disk set, at most
-    /// 1 on a periodic domain; infinite for fewer than two points.
+    /// The same in units of d_max: about 0.77 for a maximal Poisson-disk set, at most 1 on a torus.
     pub rho: f64,
     /// The covering radius in units of d_max; infinite for no point.
     pub relative_covering_radius: f64,
@@ -290,22 +287,19 @@ pub(crate) fn reason(stopped: Stopped) -> u32 {
 }
 
 /// Relaxes a set of points: neighbours that are too close repel each other and holes close, until
-/// the set has converged or all steps are made, with which the call succeeds as well (thesis
-/// chapter 4). AZULEJO_METHOD_MOMENTUM levels a clustered set before the first step, one in which
-/// points are crowded in some places and missing in others: any set ends as a random one does, and
-/// after about the same time.
+/// the set has converged or all steps are made (thesis chapter 4). AZULEJO_METHOD_MOMENTUM levels a
+/// clustered set before the first step: any set ends as a random one, about as soon.
 ///
 /// positions: the points, x y each.
 ///
 /// out: the points, in the same order. With AZULEJO_METHOD_MOMENTUM and Delaunay neighbours, of the
-/// set before the first step and the states after whole steps the one in which the fewest points
-/// have a neighbour closer than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67
-/// d_max; otherwise the state after the last whole step.
+/// states before and after whole steps the one in which the fewest points have a neighbour closer
+/// than 0.85 d_max or a Delaunay triangle with a circumradius above 0.67 d_max; otherwise the last.
 ///
 /// O(count) time for each step, O(count * log count) where the triangulation is built again: while
-/// more than 64 points have holes as wide as the domain, with AZULEJO_METHOD_THESIS also after steps
-/// that turn a triangle over, as the first from random points do. A bounded domain takes up to four
-/// times the time and memory of a periodic one. O(count) memory.
+/// more than 64 points have holes as wide as the domain, with AZULEJO_METHOD_THESIS also after
+/// steps that turn a triangle over. A bounded domain takes up to four times the time and memory of
+/// a periodic one. O(count) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_relax(
     context: *const azulejo_context,
@@ -337,11 +331,10 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
 
 /// Relaxes points of several classes, such as those of azulejo_kdrt_sample_classes: the union of
 /// all points and each class by itself get more even, though less so than a set of one class. From
-/// maximal sets of 2 to 7 classes of a periodic domain, rho ends above 0.7 and the covering radius
-/// below 0.82 d_max, in the union and in each class. No distance between points of two classes is
-/// promised. A class that is clustered is levelled before the first step. Only
-/// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY. Source: the constraints of thesis
-/// chapter 4 for each of the sets; several classes after Wei 2010.
+/// maximal sets of 2 to 7 classes of a torus, rho ends above 0.7 and the covering radius below 0.82
+/// d_max, in the union and in each class. No distance of two classes is promised. A clustered class
+/// is levelled before the first step. Only AZULEJO_METHOD_MOMENTUM with
+/// AZULEJO_NEIGHBOURHOOD_DELAUNAY. Source: thesis chapter 4, with Wei 2010.
 ///
 /// positions: the points, x y each.
 ///
@@ -350,12 +343,11 @@ pub unsafe extern "C" fn azulejo_dcr_relax(
 /// class_count: the number of classes, 1 to AZULEJO_MAX_CLASSES.
 ///
 /// class_rho, class_relative_covering_radius: class_count numbers each, or NULL: `rho` and
-/// `relative_covering_radius` of each class, as in the report, in units of the d_max of its own
-/// number of points; infinite where a class has fewer than two points, or none.
+/// `relative_covering_radius` of each class, in units of its own d_max.
 ///
-/// out: the points after the last whole step, in the same order. Mostly all steps are made.
+/// out: the points after the last whole step, in the same order.
 ///
-/// report: what the call did, with the figures of the union.
+/// report: with the figures of the union.
 ///
 /// O(count) memory, and about 2.5 times the time of azulejo_dcr_relax.
 #[unsafe(no_mangle)]
@@ -420,13 +412,13 @@ fn check_classes(classes: &[u32], count: u32) -> Result<(), Failure> {
 /// azulejo_dcr_relax_to_correlation: g(r) = 1 + the integral of (P - 1) J0(2 pi frequency r)
 /// 2 pi frequency over the frequencies, r in units of 1 / sqrt(density) (Heck et al. 2013).
 ///
-/// power: `count` numbers, 1 to 65536, at least 0: the power in bins of equal width from frequency 0
-/// to `highest`, in units of sqrt(density); beyond them it is 1. One bin of power 0 is step noise.
+/// power: `count` numbers, 1 to 65536, at least 0: the power in bins of equal width from frequency
+/// 0 to `highest`, in units of sqrt(density); beyond it is 1. One 0 is step noise.
 ///
-/// reach: where the last bin of `out` ends, above 0, in units of d_max. 12 is more than is matched.
+/// reach: where the last bin of `out` ends, above 0, in units of d_max: 12 is enough.
 ///
 /// out: an array of `bins` numbers, 1 to 65536: g in the middles of bins of equal width from 0 to
-/// `reach`. Bins of 0.05 or less show all that is matched. Not written if the call fails.
+/// `reach`. Bins of 0.05 or less show all that is matched.
 ///
 /// O(count * bins) time.
 #[unsafe(no_mangle)]
@@ -451,9 +443,8 @@ pub unsafe extern "C" fn azulejo_dcr_correlation_of_power(
 
 /// Moves points of a periodic domain until their pair correlation g(r), and with it the radial mean
 /// of their power, is the one wanted: general spectra (thesis eq. 4.3, 4.4 and 5.2; Heck et al.
-/// 2013). Uniform random points are a good start; a clustered set is levelled before the first
-/// step. Only AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY, the defaults, which it
-/// does not use otherwise; `tolerance` is that of the residual, by default 0.005.
+/// 2013). Random points are a good start; a clustered set is levelled first. Method and
+/// neighbourhood must have their defaults; `tolerance` is that of the residual, by default 0.005.
 ///
 /// positions: the points, x y each.
 ///
@@ -468,9 +459,8 @@ pub unsafe extern "C" fn azulejo_dcr_correlation_of_power(
 /// difference of the power and the one wanted, both smoothed over about 1 / reach; 0 for fewer than
 /// two points.
 ///
-/// out: of the states, the one with the least residual, in the order of the positions. A correlation
-/// that no set has, such as one below 0, is no error: all steps are made, and `stopped` is not
-/// AZULEJO_STOPPED_CONVERGED.
+/// out: of the states, the one with the least residual, in the order of the positions. A
+/// correlation that no set has is no error: `stopped` is not AZULEJO_STOPPED_CONVERGED then.
 ///
 /// O(count * reach^2) time for each step, O(count) memory.
 #[unsafe(no_mangle)]

@@ -21,8 +21,7 @@ use crate::status::{Failure, azulejo_status};
 /// position: x y of a place in the domain.
 pub type azulejo_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// A density of points from place to place, in any unit: twice the density gives the same set.
-/// Densities are at least 0, and not 0 everywhere; where they are 0 no points are wanted. Either
+/// A density of points from place to place, in any unit: at least 0, and not 0 everywhere. Either
 /// `values` or `function` must be set; what is not set has its default, NULL or 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -32,8 +31,7 @@ pub struct azulejo_density {
     /// Must be 0.
     pub reserved: u32,
     /// An image that is stretched over the domain, linear between the centres of its pixels:
-    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]). A
-    /// domain_max of `width` and `height` keeps its proportions, the default of 1 1 does not.
+    /// `height` rows of `width` densities, the first row along the lower edge (domain_min[1]).
     pub values: *const f32,
     /// The number of pixels in a row.
     pub width: usize,
@@ -93,7 +91,7 @@ pub unsafe extern "C" fn azulejo_density_init(density: *mut azulejo_density, str
 }
 
 /// Makes `count` random points with a density: a start for azulejo_dcr_relax_density. O(count * log
-/// count) time, and O(count) calls of a density function; O(count) memory.
+/// count) time, O(count) calls of a density function and memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_scatter(
     context: *const azulejo_context,
@@ -123,23 +121,22 @@ pub unsafe extern "C" fn azulejo_dcr_scatter(
 
 /// Relaxes a set of points to a density: as azulejo_dcr_relax, but the points become as dense from
 /// place to place as the density says, and evenly spaced relative to it (thesis section 4.2.3).
-/// Points whose density is about right, such as those of azulejo_dcr_scatter and
-/// azulejo_psp_adaptive_sample, need no more than the default 100 steps. A set of more than 64
-/// points that is far from it is redistributed before the first step, onto points as
-/// azulejo_dcr_scatter makes them from the seed; those in between may need more steps. Only
+/// Points of about the density, as of azulejo_dcr_scatter and azulejo_psp_adaptive_sample, need the
+/// default 100 steps, others may need more. A set of more than 64 points that is far from it is
+/// redistributed before the first step, onto points of azulejo_dcr_scatter. Only
 /// AZULEJO_METHOD_MOMENTUM with AZULEJO_NEIGHBOURHOOD_DELAUNAY.
 ///
 /// The unit of length is the local spacing: d_max for the mean density and proportional to 1 /
-/// sqrt(density) elsewhere, but it increases by no more than half of the distance from place to
-/// place. Details of the density smaller than an eighth of d_max are lost.
+/// sqrt(density) elsewhere, increasing by at most half of the distance from place to place. Details
+/// smaller than an eighth of d_max are lost.
 ///
 /// positions: the points, x y each.
 ///
 /// out: the points after the last whole step, in the same order.
 ///
-/// report: rho is the least of all distances over the mean of the spacings of the two points, the
-/// relative covering radius the largest circumradius of a Delaunay triangle over the spacing at its
-/// centre, without the limit to its increase; the motion is in units of d_max.
+/// report: rho is the least of all distances over the mean of the two spacings, the relative
+/// covering radius the largest circumradius of a Delaunay triangle over the spacing at its centre,
+/// without the limit to its increase; the motion is in units of d_max.
 ///
 /// O(count) calls of a density function, then O(count) time for each step, with a factor for
 /// densities that vary by orders of magnitude; O(count) memory.

@@ -25,9 +25,8 @@ const _: () = {
 };
 
 /// The distribution p(d) of the differences d of all pairs of samples on a mesh, or of several sets
-/// (Wei and Wang 2011, "Differential domain analysis for non-uniform sampling"): the density of
-/// other samples at an offset from a sample, over the mean density. 1 for a Poisson process. Its
-/// Fourier transform takes the place of the power spectrum, which is not defined on a surface.
+/// (Wei and Wang 2011): the density of other samples at an offset from a sample, over the mean
+/// density. 1 for a Poisson process. Its Fourier transform takes the place of the power spectrum.
 ///
 /// The offset of a pair is projected onto the tangent plane of its first sample and keeps its
 /// straight length. Lengths are in mean spacings, sqrt(area / count), frequencies in their inverse.
@@ -46,9 +45,8 @@ impl From<Differences> for azulejo_differences {
     }
 }
 
-/// Measures the differences of samples on a mesh. They are divided by those with random points of
-/// the mesh, so that boundaries, curvature and other sheets nearby cancel out (Davis and Peebles
-/// 1983). O(count) time.
+/// Measures the differences of samples on a mesh, divided by those with random points of it, so
+/// that boundaries, curvature and sheets nearby cancel (Davis and Peebles 1983). O(count) time.
 ///
 /// mesh: must have area that its mask does not leave out.
 ///
@@ -56,8 +54,7 @@ impl From<Differences> for azulejo_differences {
 ///
 /// normals: those of the samples' triangles, x y z each, as azulejo_points_normals returns them.
 ///
-/// direction: three numbers, not all 0: the x axis of the offsets is its projection onto the
-/// tangent plane.
+/// direction: three numbers, not all 0, whose projection on the tangent plane is the x axis.
 ///
 /// seed: selects the random points, two per sample.
 #[unsafe(no_mangle)]
@@ -89,10 +86,8 @@ pub unsafe extern "C" fn azulejo_differences_create(
     })
 }
 
-/// Combines the differences of sets of one kind. Their noise decreases with the square root of the
-/// number of sets. O(count) time and memory, on the calling thread.
-///
-/// differences: `count` of them, at least 1. They still belong to the caller.
+/// Combines the differences of `count` sets of one kind, at least 1. Their noise decreases with the
+/// square root of it. O(count) time and memory, on the calling thread.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_differences_mean(
     differences: *const *const azulejo_differences,
@@ -127,8 +122,7 @@ pub unsafe extern "C" fn azulejo_differences_radial(differences: *const azulejo_
 }
 
 /// The radial mean of the power spectrum, by Hankel transform of the radial mean of p(d) - 1; 1 for
-/// a Poisson process. Its resolution is one over AZULEJO_DIFFERENCES_REACH. O(count) time, on one
-/// thread.
+/// a Poisson process. Its resolution is one over AZULEJO_DIFFERENCES_REACH. O(count) time.
 ///
 /// frequencies: `count` frequencies from -32 to 32.
 ///

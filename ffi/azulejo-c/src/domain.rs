@@ -38,8 +38,7 @@ pub struct azulejo_plane_set {
     pub count: usize,
     /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
-    /// The upper corner of the domain, x y, above the lower corner on both axes; default 1 1.
-    /// Neither side may be longer than 2^100 times the other.
+    /// The upper one, above it; default 1 1. Sides are within 2^100 of each other.
     pub domain_max: [f64; 2],
 }
 
@@ -51,7 +50,7 @@ growing!(azulejo_plane_set requires domain_max {
     domain_max: [1.0; 2],
 });
 
-/// Writes the defaults: no points on the unit torus.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_set_init(set: *mut azulejo_plane_set, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -72,8 +71,7 @@ pub struct azulejo_space_set {
     pub count: usize,
     /// The lower corner of the domain, x y z; default 0 0 0.
     pub domain_min: [f64; 3],
-    /// The upper corner of the domain, x y z, above the lower corner on all axes; default 1 1 1. No
-    /// side may be longer than 2^100 times another.
+    /// The upper one, above it; default 1 1 1. As in azulejo_plane_set.
     pub domain_max: [f64; 3],
 }
 
@@ -85,7 +83,7 @@ growing!(azulejo_space_set requires domain_max {
     domain_max: [1.0; 3],
 });
 
-/// Writes the defaults: no points on the unit torus.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_set_init(set: *mut azulejo_space_set, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.

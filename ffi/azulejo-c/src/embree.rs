@@ -14,7 +14,7 @@ use crate::mesh::{azulejo_mesh, collect};
 use crate::status::{Failure, azulejo_status};
 
 /// A geometry of triangles in a scene that the program has made with Embree, which does not report
-/// the sizes of its buffers.
+/// sizes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_embree_geometry {
@@ -32,16 +32,15 @@ pub struct azulejo_embree_geometry {
     pub triangle_count: usize,
 }
 
-/// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree.
-/// Scene and device are not changed (but see azulejo_context_create), and not needed after the
-/// call: samples are traced in a scene and on a device of the library's. Triangle i of the mesh is
-/// primitive i of the first geometry, those of the second follow, and so on; vertices likewise.
+/// Makes a mesh from a copy of the triangles of a scene that the program has made with Embree,
+/// which is not needed after the call: samples are traced in a scene and on a device of the
+/// library's. Triangle i of the mesh is primitive i of the first geometry, those of the second
+/// follow, and so on; vertices likewise.
 ///
-/// scene: a committed RTCScene that no thread changes during the call. It must come from the
-/// libembree that the program has linked or, where it has linked none that all its libraries see,
-/// from the one that libazulejo loads by its SONAME: otherwise, as for an Embree that is linked
-/// statically, the behaviour is undefined. Another version of a linked one is refused. Instances in
-/// it are not followed.
+/// scene: a committed RTCScene that no thread changes during the call, of the libembree that the
+/// program has linked or, where it has linked none that all its libraries see, of the one that
+/// libazulejo loads by its SONAME: otherwise, as for an Embree that is linked statically, the
+/// behaviour is undefined. Instances in it are not followed.
 ///
 /// geometries: at least one, each attached to the scene as RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a
 /// size or a type is not that of the scene, the behaviour is undefined.
@@ -50,8 +49,8 @@ pub struct azulejo_embree_geometry {
 ///
 /// O(vertices + triangles).
 ///
-/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE for a scene of another version of
-/// Embree, and where no Embree is found.
+/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE if the version is another one or not
+/// found.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     scene: *mut c_void,

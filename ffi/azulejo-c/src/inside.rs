@@ -29,8 +29,7 @@ pub struct azulejo_volume_inside_options {
     pub struct_size: u32,
     /// An AZULEJO_SURFACE_ constant; default open. `first` takes a radius, and any order.
     pub surface: u32,
-    /// As in azulejo_volume_options, up to `quotient`: above 0, and at least 64 float spacings. It
-    /// has no default; with a `count` it must be 0.
+    /// As in azulejo_volume_options, up to `quotient`.
     pub radius: f64,
     /// Places inside may stay open that are nearer to the surface than sqrt(3) times this many
     /// radii: 1/256 to 1/2; default 0.0625. A smaller one takes longer.
@@ -47,11 +46,11 @@ pub struct azulejo_volume_inside_options {
     pub order: u32,
     /// Always 0.
     pub reserved: u32,
-    /// Of a progressive order: 1.02 to 1.5. Default 0: 2^(1/8).
+    /// See "Order" in azulejo.h; default 0.
     pub quotient: f64,
-    /// Samples that stand already, x y z each, as in azulejo_volume_options. Default NULL.
+    /// See "Given samples" in azulejo.h.
     pub given_positions: *const f32,
-    /// The clearance of each, 0 or more. Default NULL: the radius, which with a `count` is refused.
+    /// The clearance of each; default NULL.
     pub given_clearances: *const f64,
     /// Their number; default 0.
     pub given_count: usize,

@@ -28,15 +28,15 @@ pub struct azulejo_kdrt_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// The smallest distance between two samples: above 0, and at least 64 float spacings. It has
-    /// no default. Must be 0 with a `count`, which it follows from, and in calls with classes.
+    /// The smallest distance between two samples: above 0, and at least 64 float spacings; it has
+    /// no default. Must be 0 with a `count` and in calls with classes.
     pub radius: f64,
     /// The lower corner of the domain, x y; default 0 0.
     pub domain_min: [f64; 2],
     /// The upper corner, as in azulejo_plane_set; default 1 1.
     pub domain_max: [f64; 2],
     /// The shortest side of the leaves that tile the domain, in radii; at least 6, default 20.
-    /// Larger leaves have fewer seams and are faster, but need a larger pattern.
+    /// Larger leaves are faster, but need a larger pattern.
     pub leaf_size: f64,
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
@@ -44,30 +44,21 @@ pub struct azulejo_kdrt_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// The exact number of samples; default 0: as many as the radius gives. Must be 0 for windows,
-    /// streams and planes that are kept.
+    /// The exact number of samples; default 0: as many as the radius gives. Only for whole sets.
     pub count: usize,
-    /// 1: azulejo_kdrt_sample measures the `covering_radius` in its report, which takes much longer
+    /// 1: azulejo_kdrt_sample measures the `covering_radius` of its report, which takes much longer
     /// than the sampling. Default 0. Must be 0 with the report NULL, and in other calls.
     pub measure_covering_radius: u32,
-    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well. Must be any for streams.
+    /// An AZULEJO_ORDER_ constant; default any. Must be any for streams.
     pub order: u32,
-    /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8). Scattered
-    /// windows of large domains are several times as fast with 2^(1/4).
+    /// See "Order" in azulejo.h. Scattered windows are faster with 2^(1/4).
     pub quotient: f64,
-    /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: as
-    /// coarse as the domain, so that the first level has one sample. Scattered windows of large
-    /// domains are faster with a shorter one, such as 16 radii.
+    /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: the
+    /// first level has one sample. Scattered windows of large domains are faster with 16 radii.
     pub coarsest: f64,
-    /// Samples that stand already, x y each, anywhere in the plane; on a torus they wrap. Default
-    /// NULL: none. Must be none where there is a `count`. They are not moved, dropped, compared
-    /// with each other or returned; in progressive order they cover from the first level on.
+    /// See "Given samples" in azulejo.h; none with a `count`.
     pub given_positions: *const f32,
-    /// The clearance of each, 0 or more: new samples are at least so far from it, and what is
-    /// nearer to it is covered; 0 has no effect. Default NULL: all have the `radius`. In calls with
-    /// classes a row for each given sample, with a clearance for each class (NULL: its own radius).
+    /// The clearance of each; default NULL.
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
@@ -149,25 +140,23 @@ pub unsafe extern "C" fn azulejo_kdrt_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.6966 * area / radius^2 of
-/// them, or exactly `count`. Tiles clips of one small pattern over a random kd-tree and repairs the
-/// seams (thesis chapter 2). A domain with less area than the pattern, or narrower than 13 radii,
-/// is not tiled: it gets the set of azulejo_maximal_sample. A radius longer than the diagonal of
-/// the domain gives one sample.
+/// Makes a maximal, conflict-free set of samples of a rectangle: about 0.6966 * area / radius^2, or
+/// exactly `count`. Tiles clips of one small pattern over a random kd-tree and repairs the seams
+/// (thesis chapter 2). A domain with less area than the pattern, or narrower than 13 radii, is not
+/// tiled: it gets the set of azulejo_maximal_sample.
 ///
 /// With a count, small regions of a set of about that many samples are made again until the number
-/// is right, and the set is still maximal. If that fails, which is rare, the most crowded samples
-/// of a larger set are dropped and `is_maximal` is 0.
+/// is right. If that fails, which is rare, crowded samples of a larger set are dropped:
+/// `is_maximal` is 0.
 ///
-/// In progressive order the set is made of nested maximal sets, coarse to fine, and sorted by
-/// falling rank (azulejo_points_ranks). Sets of one domain, quotient, coarsest radius and seed
-/// share their levels: with default options a set is a prefix of those whose radius is half of its
-/// own, a quarter and so on, bit for bit, and with a count of those with a larger one. Then
-/// `radius` in the report is the last rank, and `is_maximal` is 0.
+/// In progressive order the set consists of nested maximal sets, coarse to fine, sorted by falling
+/// rank. Sets of one domain, quotient, coarsest radius and seed share their levels: by default a
+/// set is a prefix of those of half its radius, a quarter and so on, bit for bit, and with a count
+/// of those with a larger one. Then `radius` in the report is the last rank, `is_maximal` 0.
 ///
 /// O(samples) time, and 24 bytes of memory per sample; with a count about twice as much, in
-/// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient.
-/// Measuring the covering radius takes O(samples * log samples).
+/// progressive order 64 bytes and about fifteen times the time, more with a smaller quotient;
+/// O(samples * log samples) to measure the covering radius.
 ///
 /// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a count whose radius is below 64 float spacings.
 #[unsafe(no_mangle)]
@@ -207,23 +196,20 @@ const SAMPLING_SHARE: f64 = 0.05;
 /// The share of the progress of a stream that its plane takes.
 const PATTERN_SHARE: f64 = 0.05;
 
-/// Makes the part of a set of azulejo_kdrt_sample that lies in a window of the domain, without
-/// making the rest: the same floats in the same order, with the same ranks. Windows that partition
-/// the domain have every sample once, and can be made in any order, by threads, processes and
-/// machines that do not communicate. For many windows of one plane, azulejo_kdrt_create makes the
-/// pattern once.
+/// Makes the part of a set of azulejo_kdrt_sample that lies in a window of the domain, and no more:
+/// the same floats in the same order, with the same ranks. Windows that partition the domain have
+/// every sample once, by threads, processes and machines that do not communicate. For many windows
+/// of one plane, azulejo_kdrt_create makes the pattern once.
 ///
 /// options: those of the whole set, with a radius.
 ///
 /// window_min, window_max: the corners, x y each, with domain_min <= window_min < window_max <=
-/// domain_max. The window has the samples with window_min <= x < window_max. It may be smaller than
-/// the radius and may contain no sample.
+/// domain_max, of the samples with window_min <= x < window_max. May contain no sample.
 ///
-/// O(samples in the window and within 22 radii along x and 18 along y) time and memory, and in
-/// every call the making of the pattern, of about 28,000 samples with the default leaves. In
-/// progressive order each level, of radius R, adds about 12 R to the margin in which the levels
-/// before are needed, in all about 56,000 samples at a quotient of 2^(1/8) or 15,000 at 2^(1/4) for
-/// each level, as long as the domain is larger than that. A domain that is not tiled is made as a
+/// O(samples in the window and within 22 radii along x and 18 along y) time and memory, and the
+/// making of the pattern, of about 28,000 samples with the default leaves. In progressive order
+/// each level, of radius R, adds about 12 R to the margin: in all about 56,000 samples at a
+/// quotient of 2^(1/8) or 15,000 at 2^(1/4) for each level. A domain that is not tiled is made as a
 /// whole.
 ///
 /// Errors: AZULEJO_ERROR_TOO_LARGE counts the samples of the window only; the domain may have as
@@ -267,14 +253,12 @@ pub type azulejo_kdrt_visit_fn =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, positions: *const f32, count: usize) -> u32>;
 
 /// Makes the set of azulejo_kdrt_sample and passes it to a callback part by part, in its order,
-/// instead of keeping it: for sets of any size that are written or consumed at once, up to about
-/// 10^11 samples, as many as floats can carry.
+/// instead of keeping it: up to about 10^11 samples, as many as floats can carry.
 ///
 /// options: those of the whole set, with a radius and in any order.
 ///
-/// visit: gets the parts, of at most about 50,000 samples, the same ones for every number of
-/// threads. While it runs on the calling thread, the threads of the context make the next parts. It
-/// can cancel the call.
+/// visit: gets parts of at most about 50,000 samples, the same ones for every number of threads.
+/// While it runs on the calling thread, the others make the next parts. It can cancel the call.
 ///
 /// O(samples) time; memory for the pattern and at most 8 parts per thread. A domain that is not
 /// tiled is made as a whole and is one part.

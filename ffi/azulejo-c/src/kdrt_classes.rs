@@ -14,25 +14,22 @@ use crate::kept::azulejo_kdrt;
 use crate::points::azulejo_points;
 use crate::status::azulejo_status;
 
-/// Makes samples of several classes in a rectangle, as azulejo_classes says. A single class has the
-/// set of azulejo_kdrt_sample. Classes of equal radii get equal shares. The class of the largest
-/// own radius, if no other has the same, has all the samples that it would have alone; those of
-/// smaller radii have what is left, about 0.8 of that with the matrix of azulejo_classes_radii and
-/// factor 1, 0.95 with factor 0.7 (docs/classes.md has tables).
+/// Makes samples of several classes in a rectangle, as azulejo_classes says. Classes of equal radii
+/// get equal shares. A single class of the largest own radius has all the samples that it would
+/// have alone, those of azulejo_kdrt_sample; smaller ones have what is left, about 0.8 of that with
+/// the matrix of azulejo_classes_radii and factor 1, 0.95 with factor 0.7 (docs/classes.md).
 ///
-/// In progressive order the samples of each class are sorted coarse to fine, and
-/// azulejo_points_ranks has their ranks, which are radii of levels. Of the classes of equal own
-/// radii R, the samples up to a rank t are at least r_ij t / R apart, and every point of the domain
-/// is within `quotient` times r_ij t / R of one of them, or within r_ij of a sample of a class of
-/// larger own radius; where a class has less than 100 of them, within 2 or the square of `quotient`
-/// times that instead. So a host can show the first part of each class, near parts of a scene more
-/// than far ones. It takes about eight times the time.
+/// In progressive order the samples of each class are sorted coarse to fine, so that a host can
+/// show the first part of each. Of the classes of equal own radii R, the samples up to a rank t are
+/// at least r_ij t / R apart, and every place is within `quotient` times r_ij t / R of one of them,
+/// or within r_ij of a sample of a class of larger own radius; where a class has less than 100 of
+/// them, within 2 or the square of `quotient` times that. It takes about 8 times the time.
 ///
 /// options: `radius`, `count` and `measure_covering_radius` must be 0. `coarsest` is the radius of
 /// the first level of each class, at least the largest own radius.
 ///
-/// out: the samples with their classes, sorted by class, and within a class by y and x, in
-/// progressive order by falling rank.
+/// out: the samples with their classes, sorted by class, then by y and x, in progressive order by
+/// rank.
 ///
 /// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
 /// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
@@ -66,19 +63,19 @@ pub unsafe extern "C" fn azulejo_kdrt_sample_classes(
     })
 }
 
-/// Makes what all windows of a plane of several classes need. azulejo_kdrt_window then makes any of
-/// its windows: the samples of azulejo_kdrt_sample_classes that lie in it, in the same order. The
-/// plane is kept as by azulejo_kdrt_create.
+/// Makes what all windows of a plane of several classes need: azulejo_kdrt_window then makes the
+/// samples of azulejo_kdrt_sample_classes that lie in any of them, in the same order. The plane is
+/// kept as by azulejo_kdrt_create.
 ///
 /// options, classes: those of the whole set. Only this call calls the progress callback.
 ///
 /// O(samples of the pattern) time, and the memory of azulejo_kdrt_create. A window takes O(samples
 /// in and around it): classes of one own radius depend on what lies within about 30 times the
-/// largest r_ij between two of them, and one between them and classes of larger radii, and these on
-/// what lies around that again. In progressive order each level adds 30 times its r_ij: windows of
-/// large domains need a `coarsest` of a few times the largest own radius. On a torus narrower than
-/// about 10 times the largest r_ij between classes of equal own radii, these and the classes before
-/// are kept as a whole, in 12 bytes per sample.
+/// largest r_ij between them, and all classes of larger radii on what lies around that again. In
+/// progressive order each level adds 30 times its r_ij: windows of large domains need a `coarsest`
+/// of a few times the largest own radius. On a torus narrower than about 10 times the largest r_ij
+/// between classes of equal own radii, these and the classes before are kept, in 12 bytes per
+/// sample.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create_classes(
     context: *const azulejo_context,

@@ -10,8 +10,7 @@ use crate::kdrt::azulejo_kdrt_options;
 use crate::points::azulejo_points;
 use crate::status::{Failure, azulejo_status};
 
-/// A plane: a set of azulejo_kdrt_sample or azulejo_kdrt_sample_classes of which any window can be
-/// made at any time.
+/// A plane: a set of azulejo_kdrt_sample or _sample_classes whose windows can be made.
 pub struct azulejo_kdrt {
     pub(crate) plane: Plane,
 }
@@ -24,11 +23,10 @@ handle!(azulejo_kdrt);
 /// options: those of the whole set, with a radius. Only this call calls the progress callback.
 ///
 /// O(samples of the pattern) time, about 28,000 with the default leaves. A plane takes about 0.9 MB
-/// and 1 byte for each radius of the sides of the domain, however many samples the domain has, up
-/// to about 10^11. A domain that is not tiled (see azulejo_kdrt_sample) is made as a whole and
-/// kept, in 8 bytes per sample; in progressive order levels of up to 65,536 samples are, unless the
-/// coarsest is tiled, in 16 bytes per sample, and each level takes 16 KB. In progressive order and
-/// of several classes a plane also keeps what windows make, in up to 32 MB.
+/// and 1 byte for each radius of the sides of the domain, up to about 10^11 samples. A domain that
+/// is not tiled is kept as a whole, in 8 bytes per sample; in progressive order levels of up to
+/// 65,536 samples are, unless the coarsest is tiled, in 16 bytes per sample, and each level takes
+/// 16 KB. In progressive order and of several classes windows add up to 32 MB.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_create(
     context: *const azulejo_context,
@@ -51,11 +49,10 @@ pub unsafe extern "C" fn azulejo_kdrt_create(
 /// Makes a wide plane: up to a million radii wide and high and more, wherever it lies. As floats
 /// cannot carry so many samples, only azulejo_kdrt_window_into gives them.
 ///
-/// options: with a radius, in any order. The samples are others than those of azulejo_kdrt_create
-/// with the same options. They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to 1/256
-/// of the radius, and every place is within the radius + 3 of these of a sample. The domain is at
-/// most 2^29 of them, at least 1,048,576 radii, wide and high, and large enough to be tiled (see
-/// azulejo_kdrt_sample).
+/// options: with a radius, in any order. The samples are others than those of azulejo_kdrt_create.
+/// They lie on a lattice whose spacing, azulejo_kdrt_unit, is 1/512 to 1/256 of the radius, and
+/// every place is within the radius + 3 of these of a sample. The domain is at most 2^29 of them,
+/// at least 1,048,576 radii, wide and high, and large enough to be tiled.
 ///
 /// O(samples of the pattern) time, and the memory of azulejo_kdrt_create.
 #[unsafe(no_mangle)]
@@ -77,17 +74,15 @@ pub unsafe extern "C" fn azulejo_kdrt_create_wide(
     })
 }
 
-/// Makes the samples of a plane that lie in a window of its domain: the same floats in the same
-/// order as azulejo_kdrt_sample_window and the whole set, with classes where it has some. All work
-/// happens on the calling thread, and other threads may make windows of the same plane meanwhile.
-/// Very large windows are made faster by azulejo_kdrt_sample_window, on many threads.
+/// Makes the samples of a plane that lie in a window of its domain, with their classes: those of
+/// azulejo_kdrt_sample_window, in the same order. All work happens on the calling thread. Very
+/// large windows are made faster by azulejo_kdrt_sample_window, on many threads.
 ///
 /// window_min, window_max: as in azulejo_kdrt_sample_window.
 ///
 /// O(samples in the window and within about 20 radii of it) time and memory; in progressive order
 /// also those of each level that is not kept, in the margin that azulejo_kdrt_sample_window has.
-/// The plane keeps these, up to 32 MB: the first window in a region takes long, those near it do
-/// not. The samples do not depend on what is kept.
+/// The plane keeps these, up to 32 MB: the first window in a region takes longest.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_kdrt_window(
     plane: *const azulejo_kdrt,
@@ -109,11 +104,10 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 /// Writes the samples of a window into the caller's arrays, relative to its lower corner. The
 /// window of a periodic plane may lie anywhere and cross seams: so the plane goes on without end.
 ///
-/// Positions are differences to window_min, rounded down to floats: at least 0, and at most the
-/// extent of the window. They are exact, and so at least the radius apart, if window_min is a
-/// multiple of azulejo_kdrt_unit and the window less than 2^24 units wide and high; otherwise two
-/// samples may be closer than the radius by the spacing of floats at the extent of the window.
-/// Windows that share an edge, given by the same number, share no sample and lose none.
+/// Positions are differences to window_min, rounded down to floats: at least 0, at most the extent.
+/// They are exact if window_min is a multiple of azulejo_kdrt_unit and the window less than 2^24
+/// units wide and high; otherwise two samples may be closer than the radius by the spacing of
+/// floats at the extent. Windows that share an edge share no sample and lose none.
 ///
 /// window_min, window_max: the corners, x y each. Periodic: at most 2^32 periods from the domain,
 /// at most one period apart. Bounded: in the domain.
@@ -122,10 +116,9 @@ pub unsafe extern "C" fn azulejo_kdrt_window(
 ///
 /// ranks, classes: receive those of each sample; NULL if they are not wanted, or not there.
 ///
-/// capacity: the number of samples that each array has room for; see azulejo_kdrt_window_capacity.
+/// capacity: the samples that each array has room for; see azulejo_kdrt_window_capacity.
 ///
-/// count: receives the number of samples of the window. If it is above `capacity`, the call fails
-/// and writes nothing else.
+/// count: receives the number of samples; above `capacity` nothing else is written.
 ///
 /// Time, memory and threads are those of azulejo_kdrt_window, and so is the order of classes and
 /// of ranks; else it is arbitrary, but the same in every call.

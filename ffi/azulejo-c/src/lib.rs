@@ -86,10 +86,24 @@
 //!   - AZULEJO_ERROR_INTERNAL for a panic inside the library, which is a bug.
 //!
 //! Arguments. Results come last: `out` receives what the call makes, `report`, which may be NULL,
-//!   what it did. Any other argument may be NULL only where its text says so. Arrays are packed and
-//!   have `count` entries, positions x y or x y z each. They and structs are read during the call
-//!   only, arrays in structs as well. The pointer of an empty array may be NULL, with the count 0.
+//!   what it did. Any other argument may be NULL only where its text says so. Arrays are packed, or
+//!   have a `stride_bytes` from one entry to the next, a multiple of 4, at least 12; they have
+//!   `count` entries, positions x y or x y z each. They and structs are read during the call only,
+//!   arrays in structs as well. The pointer of an empty array may be NULL, with the count 0.
 //!   Invalid pointers that are aligned, and counts that exceed an array, cannot be detected.
+//!
+//! Order. With AZULEJO_ORDER_ANY, the default, samples are in no particular order. In
+//!   AZULEJO_ORDER_PROGRESSIVE every prefix of a set is well spread, as azulejo_points_ranks says.
+//!   The `quotient` of the options is how many times longer the radius of each level of such a set
+//!   is than that of the next: 1.02 to 1.5, or 0, the default, for 2^(1/8).
+//!
+//! Given samples stand already, anywhere, on a mesh or not; on a torus they wrap. They are not
+//!   moved, dropped, compared with each other or returned: new samples are at least the clearance
+//!   from each of them, and every place is within the radius of a new sample or the clearance of a
+//!   given one, in progressive order from the first level on. `given_clearances` has the clearance
+//!   of each, 0 or more, 0 having no effect; with classes a row for each, with a clearance for each
+//!   class. NULL, the default, stands for the radius of the set or the own radius of the class; a
+//!   `count` and radii that vary refuse it.
 //!
 //! Handles. azulejo_context, azulejo_kdrt, azulejo_plane, azulejo_mesh, azulejo_psp,
 //!   azulejo_points, azulejo_selection, azulejo_mask, azulejo_spectrum and azulejo_differences are

@@ -18,13 +18,13 @@ use crate::status::{Failure, azulejo_status};
 pub struct azulejo_mask_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// The number of independent masks, 1 to 64; default 1. One does not depend on the others.
+    /// The number of independent masks, 1 to 64; default 1.
     pub channels: u32,
     /// The pixels along x, 2 to 1024, or to 64 if depth is above 1; has no default.
     pub width: usize,
     /// The pixels along y, 2 to 1024, or to 64 if depth is above 1; has no default.
     pub height: usize,
-    /// The pixels along z, 1 to 64; default 1, a mask of the plane. Others are masks of space.
+    /// The pixels along z, 1 to 64; default 1: a mask of the plane.
     pub depth: usize,
     /// Another seed gives another mask; default 0.
     pub seed: u64,
@@ -95,8 +95,7 @@ impl azulejo_mask_options {
     }
 }
 
-/// A blue-noise mask: in each channel every pixel has a rank of its own. The mask is a torus, and
-/// can be repeated without seams.
+/// A blue-noise mask: a torus in each channel of which every pixel has a rank of its own.
 pub struct azulejo_mask {
     mask: Mask,
 }
@@ -105,11 +104,10 @@ handle!(azulejo_mask);
 
 /// Makes a blue-noise mask by void and cluster (Ulichney 1993). The pixels whose ranks are below
 /// any number are spread evenly over the torus and without a pattern. A mask of space has this in
-/// all three axes together; its slices are no masks of the plane, nor is it one of space and time.
+/// all three axes together, not in slices.
 ///
 /// O(pixels * (s + log(pixels))) time for each channel, s being the pixels within six sigma of one,
-/// about 400 in the plane and 6,000 in space; 16 bytes of memory per pixel and channel. Threads
-/// share the channels.
+/// about 400 in the plane and 6,000 in space; 16 bytes per pixel and channel, which threads share.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mask_create(
     context: *const azulejo_context,
@@ -179,11 +177,10 @@ pub unsafe extern "C" fn azulejo_mask_values(mask: *const azulejo_mask, out: *mu
 
 /// Dithers an image to few levels by ordered dithering. A number v becomes one of the levels beside
 /// v * (levels - 1), the upper one where the fraction exceeds 1 - t, t being the mask's number at
-/// the pixel. The mask is repeated over the image, and its channels over those of the image. Light
-/// adds up only where numbers are linear, which those of sRGB are not.
+/// the pixel. The mask is repeated over the image, and its channels over those of the image.
 ///
-/// image: the numbers of all pixels, those of one pixel after each other; x grows first, then y,
-/// then z. 0 to 1; what lies outside is taken as the nearest of these.
+/// image: the numbers of all pixels, 0 to 1, those of one pixel after each other; x grows first,
+/// then y, then z. Light adds up only where numbers are linear, unlike those of sRGB.
 ///
 /// depth: 1 for an image of the plane.
 ///

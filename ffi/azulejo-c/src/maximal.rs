@@ -58,10 +58,9 @@ pub unsafe extern "C" fn azulejo_maximal_options_init(
 }
 
 /// Makes a maximal, conflict-free set of samples of a rectangle by throwing darts into what is
-/// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. It is
-/// the reference with which other sets are compared, and much slower than azulejo_kdrt_sample.
-/// O(samples) time and memory. Source: M. S. Ebeida et al., A Simple Algorithm for Maximal
-/// Poisson-Disk Sampling in High Dimensions, 2012.
+/// uncovered, one after the other: about 0.6966 * area / radius^2 samples without any bias. The
+/// reference for other sets, and much slower than azulejo_kdrt_sample. O(samples) time and memory
+/// (Ebeida et al., A Simple Algorithm for Maximal Poisson-Disk Sampling, 2012).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_maximal_sample(
     context: *const azulejo_context,

@@ -34,9 +34,8 @@ pub struct azulejo_kdrt_merge_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// 1: the pieces are maximal sets of this radius, at least farther than it from their edges, as
-    /// azulejo_kdrt_sample and azulejo_kdrt_sample_window make them. Then only their seams are
-    /// tested: the same set in less time, but conflicts and gaps elsewhere would stay. Default 0.
+    /// 1: the pieces are maximal sets of this radius, at least farther than it from their edges.
+    /// Then only their seams are tested: the same set in less time. Default 0.
     pub maximal_pieces: u32,
     /// Must be 0.
     pub reserved: u32,
@@ -64,8 +63,7 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_options_init(
     unsafe { growing::init("options", options, struct_size) }
 }
 
-/// A set of samples that was made independently, such as by azulejo_kdrt_sample on a bounded domain
-/// or by azulejo_kdrt_sample_window.
+/// A set that was made independently, such as by azulejo_kdrt_sample or _sample_window.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_merge_piece {
@@ -79,8 +77,7 @@ pub struct azulejo_kdrt_merge_piece {
     pub max: [f64; 2],
 }
 
-/// The fate of the samples of the pieces. The result has the fixed points first, then the kept
-/// samples, then the inserted ones.
+/// The fate of the samples of the pieces.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_kdrt_merge_report {
@@ -120,14 +117,11 @@ pub unsafe extern "C" fn azulejo_kdrt_merge_report_init(
 ///
 /// Whatever no sample covers is filled: where a piece is not maximal, where there is no piece, and
 /// the whole domain if nothing is given. A sample of a piece is removed only if it is closer than
-/// the radius to a fixed point, or to a sample that stays of another piece or, across the seam of a
-/// periodic domain, of its own; which of the two is removed depends on the seed and the order of
-/// the pieces. If the pieces are maximal as azulejo_kdrt_sample makes them, new samples lie within
-/// the radius of a removed sample or of the edge of a piece's rectangle.
+/// the radius to a fixed point or to a sample that stays of another piece or, across a seam, of its
+/// own; which one depends on the seed and the order of the pieces. Of maximal pieces, new samples
+/// lie within the radius of a removed sample or of the edge of a piece.
 ///
-/// pieces: `piece_count` of them, with rectangles in the domain.
-///
-/// piece_size: sizeof(azulejo_kdrt_merge_piece).
+/// pieces: `piece_count` rectangles in the domain. piece_size: sizeof(azulejo_kdrt_merge_piece).
 ///
 /// fixed: `fixed_count` points that must stay, no two of them closer than the radius.
 ///

@@ -14,9 +14,8 @@ use crate::points::azulejo_points;
 use crate::progress::Watch;
 use crate::status::{AZULEJO_ERROR_OUT_OF_MEMORY, Failure, azulejo_status};
 
-/// A checked triangle mesh. Any triangle soup is accepted: open, non-manifold, of many parts and
-/// mixed winding. A mesh may carry normals and a mask. Meshes made from one another share what they
-/// have in common, and neither change nor need each other.
+/// A checked triangle mesh: any soup, open, non-manifold, of many parts and mixed winding. It may
+/// carry normals and a mask. Meshes made from one another share what they have in common.
 pub struct azulejo_mesh {
     pub(crate) shared: Arc<Mesh>,
 }
@@ -29,15 +28,12 @@ const VECTOR_SIZE: usize = size_of::<[f32; 3]>();
 ///
 /// positions: the vertices, x y z each, `stride_bytes` from one to the next.
 ///
-/// stride_bytes: a multiple of 4, at least 12.
-///
 /// indices: three per triangle, below `vertex_count`; triangles keep their order. Triangles without
 /// area are allowed and get no samples, but at least one must have area.
 ///
-/// O(vertices + triangles) time, and 12 bytes per vertex and per triangle. What later calls find
-/// out about the mesh is kept with it, for all threads: about a byte per triangle for sets, 12
-/// bytes per triangle and 4 per vertex for relaxation and remeshing, 100 per triangle for
-/// iterations of AZULEJO_ENGINE_EMBREE.
+/// O(vertices + triangles) time, and 12 bytes per vertex and per triangle. Later calls keep with
+/// it, for all threads, about a byte per triangle for sets, 12 bytes per triangle and 4 per vertex
+/// for relaxation and remeshing, 100 per triangle for iterations of AZULEJO_ENGINE_EMBREE.
 ///
 /// Errors: AZULEJO_ERROR_TOO_LARGE for 2^32 - 1 vertices or triangles or more;
 /// AZULEJO_ERROR_OUT_OF_MEMORY.
@@ -65,21 +61,18 @@ pub unsafe extern "C" fn azulejo_mesh_create(
     })
 }
 
-/// Loads a mesh from a file: Wavefront OBJ, PLY, STL (both text and binary), OFF (text) or binary
-/// glTF, distinguished by the extension .obj, .ply, .stl, .off or .glb, otherwise by the first
-/// bytes. Polygons become fans of triangles, in the order of the faces. Vertices keep the order of
-/// the file; STL facets have three each, which are not merged. Of glTF the meshes of all nodes of
-/// the scene are read, placed as the nodes say, one after the other. Normals of corners (OBJ vn)
-/// and vertices (PLY nx ny nz, NOFF, glTF) are read; a corner without one gets a zero normal (see
-/// azulejo_mesh_with_normals). All else is ignored.
+/// Loads a mesh from a file: Wavefront OBJ, PLY, STL, OFF (text) or binary glTF, by the extension
+/// .obj, .ply, .stl, .off or .glb, otherwise by the first bytes. Polygons become fans of triangles,
+/// in the order of the faces. Vertices keep the order of the file; STL facets have three each. Of
+/// glTF the meshes of all nodes of the scene are read, placed as the nodes say. Normals of corners
+/// (OBJ vn) and vertices (PLY nx ny nz, NOFF, glTF) are read, zero where there is none.
 ///
 /// Coordinates in text or doubles, so far from the origin that floats would displace them by more
-/// than a millionth of the mesh's size, are made relative to an origin of the mesh, which
-/// azulejo_mesh_origin returns: so georeferenced files keep their shape. It is zero otherwise.
+/// than a millionth of the mesh's size, are relative to azulejo_mesh_origin.
 ///
-/// path: the file name, terminated by a NUL, in the encoding of the system, on Windows in UTF-8.
+/// path: terminated by a NUL, in the encoding of the system, on Windows in UTF-8.
 ///
-/// O(size of the file), on the calling thread, block by block.
+/// O(size of the file), on the calling thread.
 ///
 /// Errors: AZULEJO_ERROR_IO if the file cannot be read; AZULEJO_ERROR_FORMAT if it is invalid, or
 /// has a mesh that azulejo_mesh_create would refuse.
@@ -108,16 +101,13 @@ fn system_path(utf8: &CStr) -> Result<&Path, Failure> {
     utf8.to_str().map(Path::new).map_err(|error| Failure::invalid("path", error))
 }
 
-/// Makes a mesh with the caller's normals in place of any that it has, such as the smooth ones of a
-/// shaded surface. Samples are the same with and without; azulejo_points_interpolated_normals has
-/// the normals at them.
+/// Makes a mesh with the caller's normals in place of any that it has, such as those of a shaded
+/// surface, for azulejo_points_interpolated_normals. They do not affect samples.
 ///
 /// normals: of any length, x y z each, `stride_bytes` from one to the next. Where the three normals
 /// of a triangle add up to zero at a sample, the sample gets the normal of the triangle.
 ///
 /// normal_count: the number of vertices, if there are no indices.
-///
-/// stride_bytes: a multiple of 4, at least 12.
 ///
 /// normal_indices: three per triangle, below `normal_count`, for corners that share a vertex but
 /// not its normal; NULL for one normal per vertex.
@@ -158,10 +148,8 @@ pub unsafe extern "C" fn azulejo_mesh_with_normals(
 }
 
 /// Makes a mesh with a mask, in place of any that it has: triangles whose entry is 0 are left out
-/// but keep their numbers. The rest is sampled, bit for bit, as if they did not exist: they get no
-/// samples, have no area, and need not be covered. They do not separate anything either: samples on
-/// both sides of them keep their distance through space. A mask may leave out everything; then a
-/// maximal set is empty.
+/// but keep their numbers. The rest is sampled, bit for bit, as if they did not exist. A mask may
+/// leave out everything; then a maximal set is empty.
 ///
 /// mask: one byte per triangle: 0 leaves it out, any other value keeps it.
 ///
@@ -191,14 +179,11 @@ pub unsafe extern "C" fn azulejo_mesh_with_mask(
 }
 
 /// Makes a mesh with its vertices moved, such as for the next frame of an animation. Triangles and
-/// mask stay; normals of azulejo_mesh_with_normals or of a file go. With azulejo_mesh_points the
-/// samples of one mesh follow to the other.
+/// mask stay; normals go. With azulejo_mesh_points samples follow from one mesh to the other.
 ///
 /// positions: the vertices, x y z each, `stride_bytes` from one to the next.
 ///
-/// vertex_count: the number of vertices of the mesh.
-///
-/// stride_bytes: a multiple of 4, at least 12.
+/// vertex_count: that of the mesh.
 ///
 /// O(vertices + triangles).
 ///
@@ -222,14 +207,11 @@ pub unsafe extern "C" fn azulejo_mesh_deform(
     })
 }
 
-/// Evaluates places of a mesh, given by triangle and barycentrics, with the rounding of every
-/// sampler: places of samples of this mesh give the samples, bit for bit, and on a mesh of
-/// azulejo_mesh_deform each sample goes with its triangle. The result has normals, triangles and
-/// barycentrics, in the same order. O(count).
+/// Evaluates places of a mesh with the rounding of every sampler: places of samples of this mesh
+/// give the samples, bit for bit, and on a mesh of azulejo_mesh_deform each sample goes with its
+/// triangle. The result has normals, triangles and barycentrics, in the same order. O(count).
 ///
-/// triangles: one for each place. Triangles without area and masked triangles are allowed.
-///
-/// barycentrics: u v of each place, inside its triangle.
+/// triangles, barycentrics: of each place; masked triangles, and those without area, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_points(
     mesh: *const azulejo_mesh,
@@ -290,15 +272,15 @@ pub unsafe extern "C" fn azulejo_mesh_indices(mesh: *const azulejo_mesh) -> *con
 }
 
 /// The area of all triangles that no mask leaves out. A maximal set of n samples has a radius of
-/// about sqrt(0.69656 * area / n), if that is small compared with the features of the surface.
+/// about sqrt(0.69656 * area / n) where that is small beside the features of the surface.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_area(mesh: *const azulejo_mesh) -> f64 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("mesh", mesh) }.map_or(0.0, |mesh| mesh.shared.area())
 }
 
-/// Writes to `origin`, x y z, what the positions of the mesh and of its samples are relative to, in
-/// the frame of the file that it was loaded from: see azulejo_mesh_load. Zero for others, and NULL.
+/// Writes to `origin`, x y z, what positions of the mesh and of its samples are relative to in the
+/// frame of its file: see azulejo_mesh_load. Zero for others, and NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_origin(mesh: *const azulejo_mesh, origin: *mut f64) {
     // SAFETY: handed on from the caller.

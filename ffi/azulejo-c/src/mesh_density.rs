@@ -26,9 +26,8 @@ use crate::status::{Failure, azulejo_status};
 /// position: x y z of a place on the mesh.
 pub type azulejo_mesh_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut c_void, position: *const f64) -> f64>;
 
-/// The number of samples of a mesh per unit of area, from place to place. Densities are at least 0,
-/// and not 0 everywhere; where they are 0 there are no samples, which does not affect the density
-/// beside it. One of `vertex_values`, `function` and `image` must be set, and one of `radius` and
+/// The number of samples of a mesh per unit of area, from place to place: at least 0, and not 0
+/// everywhere. One of `vertex_values`, `function` and `image` must be set, and one of `radius` and
 /// `count`; what is not set has its default, NULL or 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -39,7 +38,7 @@ pub struct azulejo_mesh_density {
     pub at_vertices: u32,
     /// A density for each vertex of the mesh, interpolated on the triangles.
     pub vertex_values: *const f32,
-    /// The number of vertex_values: that of the vertices of the mesh.
+    /// The number of vertices.
     pub vertex_count: usize,
     /// Gives the density at a position.
     pub function: azulejo_mesh_density_fn,
@@ -48,33 +47,32 @@ pub struct azulejo_mesh_density {
     /// The largest value of `function`, above 0. Must be 0 with `at_vertices`.
     pub largest: f64,
     /// The most by which `function` changes per unit of distance between two places of a triangle,
-    /// at least 0. Coverage is proved with it, so it must hold: a violation that is detected makes
-    /// the call fail. Where the density is 0, or nearly so, over many times the radius beside it,
-    /// the call is refused as too much: use `at_vertices` there. Must be 0 where `largest` must.
+    /// at least 0, as in azulejo_psp_adaptive_options. Where the density is 0, or nearly so, over
+    /// many times the radius beside it, the call is refused as too much: use `at_vertices` there.
+    /// Must be 0 where `largest` must.
     pub slope: f64,
     /// An image that is laid on the mesh by texture coordinates, linear between the centres of its
-    /// pixels, and repeated: `height` rows of `width` densities, the first row along v = 0.
+    /// pixels, and repeated: `height` rows of `width` densities, the first along v = 0.
     pub image: *const f32,
-    /// The number of pixels in a row, which is as long as u goes from 0 to 1.
+    /// The number of pixels in a row, from u = 0 to 1.
     pub width: usize,
     /// The number of rows.
     pub height: usize,
     /// Texture coordinates of an image, u v each, at most 1e6 in absolute value: one for each
     /// vertex, or one for each corner of each triangle.
     pub texture: *const f32,
-    /// The number of texture coordinates: that of the vertices or of the corners.
+    /// That of the vertices or of the corners.
     pub texture_count: usize,
-    /// 1: `texture` is by corners, so that those along a seam differ. Default 0: by vertices.
+    /// 1: by corners, so that those along a seam differ. Default 0.
     pub by_corners: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// The radius at density 1, above 0: a maximal set of this radius has density 1. The radius at
-    /// a density d is this over sqrt(d).
+    /// The radius at density 1, above 0, that of a maximal set of density 1; at d this over
+    /// sqrt(d).
     pub radius: f64,
-    /// About how many samples the whole set has, above 0: the radius follows from the integral of
-    /// the density. There are fewer where parts of the surface are nearer to each other than the
-    /// radius, and some more along boundaries. In progressive order there are exactly so many, and
-    /// it must be a whole number.
+    /// About how many samples the whole set has, above 0: fewer where parts of the surface are
+    /// nearer to each other than the radius, and some more along boundaries. In progressive order
+    /// there are exactly so many, and it must be a whole number.
     pub count: f64,
 }
 
@@ -188,15 +186,14 @@ pub unsafe extern "C" fn azulejo_mesh_density_init(
 }
 
 /// Makes a maximal set of samples on a mesh with a density: azulejo_psp_adaptive_sample, where the
-/// radius at a density d is that at density 1 over sqrt(d). What is said there of conflicts and of
-/// coverage holds for the radii that are returned. Where the density falls to 0 within a few radii,
-/// radii are limited to four times the least one on a piece of the surface of about that length.
+/// radius at a density d is that at density 1 over sqrt(d). What is said there holds for the radii
+/// that are returned. Where the density falls to 0 within a few radii, radii are limited to four
+/// times the least one on a piece of the surface of about that length.
 ///
-/// In progressive order ranks are radii at density 1, and a `count` is exact: the report has the
-/// radius at density 1, which is the last rank, and a bound of the radius at density 1 at which the
-/// set is maximal. Sets of smaller counts are prefixes, bit for bit but for the radii, which are
-/// those of each set: levels of detail nest. A set with a radius shares all samples with ranks of
-/// at least `quotient` times that radius, of the first 100 those of at least 2.25 times it.
+/// In progressive order ranks are radii at density 1, and so are both radii of the report. Sets of
+/// smaller counts are prefixes, bit for bit but for the radii, which are those of each set. A set
+/// with a radius shares all samples with ranks of at least `quotient` times that radius, of the
+/// first 100 those of at least 2.25 times it.
 ///
 /// options: vertex_radii and radius_function must be NULL, and what belongs to them 0.
 ///
@@ -204,8 +201,7 @@ pub unsafe extern "C" fn azulejo_mesh_density_init(
 ///
 /// O(samples + triangles) time for densities that change slowly.
 ///
-/// Errors: AZULEJO_ERROR_INVALID_ARGUMENT also for a density above `largest` or one that changes
-/// faster than `slope`; AZULEJO_ERROR_TOO_LARGE as azulejo_psp_adaptive_sample.
+/// Errors: as of azulejo_psp_adaptive_sample, for densities and `largest`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
     context: *const azulejo_context,
@@ -243,11 +239,11 @@ pub unsafe extern "C" fn azulejo_psp_adaptive_with_density(
 }
 
 /// Samples a mesh with several classes and a density: azulejo_psp_sample_classes, where the radii
-/// of the classes are multiples of a local radius, which the density gives as in
-/// azulejo_psp_adaptive_with_density. Two samples of classes i and j are at least r_ij times the
-/// mean of their local radii apart, and for each class every place is nearer than that to some
-/// sample. So all classes follow the density, with the shares that they have without one. Where it
-/// jumps, larger classes, which come first, leave fewer samples of smaller ones beside the jump.
+/// of the classes are multiples of the local radius of azulejo_psp_adaptive_with_density. Two
+/// samples of classes i and j are at least r_ij times the mean of their local radii apart, and for
+/// each class every place is nearer than that to some sample. So all classes follow the density,
+/// with the shares that they have without one. Where it jumps, larger classes, which come first,
+/// leave fewer samples of smaller ones.
 ///
 /// options: as in azulejo_psp_sample_classes; given samples need clearances, which are lengths. In
 /// progressive order ranks, over the own radius of the class, are factors of all local radii.

@@ -34,12 +34,11 @@ impl azulejo_plane {
 handle!(azulejo_plane);
 
 /// Makes a set of the plane that is edited. Its samples have ids (azulejo_points_ids), at first 0,
-/// 1, 2 and so on in their order. A sample keeps its id and all its bytes until it is erased, and
-/// no other sample ever gets that id.
+/// 1, 2 and so on in their order. A sample keeps id and bytes; no other gets that id.
 ///
 /// options: `count`, `order` and `measure_covering_radius` must have their defaults, and with
-/// positions `leaf_size` too. Given samples have the ids 0, 1, 2 and so on, independent of those of
-/// the samples. The handle keeps the progress callback for all its calls.
+/// positions `leaf_size` too. Given samples have ids of their own, also from 0 on. The handle keeps
+/// the progress callback for all its calls.
 ///
 /// positions: any floats of the domain, no two closer than the radius and none closer to a given
 /// sample than its clearance. The first azulejo_plane_refill looks for gaps everywhere.
@@ -89,9 +88,8 @@ pub unsafe extern "C" fn azulejo_plane_points(
 }
 
 /// Erases the samples in a region. On a torus a sample lies in it if one of its images lies in the
-/// box, and one in the ball, so that a brush may reach over the seam.
-///
-/// Strokes are undone and redone as azulejo_psp_erase says.
+/// box, and one in the ball, so that a brush may reach over the seam. Undo is as of
+/// azulejo_psp_erase.
 ///
 /// erased: the erased samples with their ids, by rising ids; NULL if they are not wanted.
 ///
@@ -130,8 +128,7 @@ pub unsafe extern "C" fn azulejo_plane_erase_ids(
     })
 }
 
-/// Puts samples back that were erased from the set, as azulejo_psp_restore. O(points + samples in
-/// the tiles around them).
+/// Puts erased samples back, as azulejo_psp_restore. O(points + samples in the tiles around them).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_restore(
     plane: *mut azulejo_plane,
@@ -173,8 +170,8 @@ pub unsafe extern "C" fn azulejo_plane_add_given(
     })
 }
 
-/// Removes given samples by their ids: what they covered is filled by the next
-/// azulejo_plane_refill. O(given samples).
+/// Removes given samples by their ids: azulejo_plane_refill fills what they covered. O(given
+/// samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_remove_given(
     plane: *mut azulejo_plane,
@@ -191,17 +188,15 @@ pub unsafe extern "C" fn azulejo_plane_remove_given(
 }
 
 /// Makes the set maximal again after edits, but looks only where samples were erased or given
-/// samples removed since the last refill. All samples that stand stay as they are.
-///
-/// The new samples depend on `seed`, on the edits and on what stands around them, and can lie up to
-/// a radius outside a region that was erased.
+/// samples removed since the last refill. All samples that stand stay as they are. The new ones
+/// depend on `seed`, on the edits and on what stands around them, and can lie up to a radius
+/// outside a region that was erased.
 ///
 /// added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 ///
 /// report: of the set after the call; `covering_radius` is -1.
 ///
-/// O(area in and around the edited regions + given samples). A call that was cancelled can be
-/// repeated.
+/// O(area in and around the edited regions + given samples). If cancelled, repeat it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_refill(
     plane: *mut azulejo_plane,

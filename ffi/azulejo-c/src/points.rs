@@ -5,8 +5,8 @@ use azulejo_core::Points;
 use crate::boundary::array;
 use crate::handles::{self, handle};
 
-/// The samples that a call made. All its arrays have one entry per sample, in the same order; they
-/// are NULL for an empty set and where a set has no such array.
+/// The samples that a call made. Each array has an entry per sample, in the same order, and is NULL
+/// for an empty set and where a set has no such array.
 pub struct azulejo_points {
     pub(crate) samples: Samples,
     /// The radius of each sample, where it varies.
@@ -92,16 +92,15 @@ pub unsafe extern "C" fn azulejo_points_positions(points: *const azulejo_points)
 }
 
 /// On a mesh, the unit normals of the samples' triangles, x y z each, on the side from which their
-/// vertices appear counter-clockwise, whether or not the mesh carries normals of its own.
+/// vertices appear counter-clockwise.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_normals(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
     unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.normals))
 }
 
-/// On a mesh that carries normals, from azulejo_mesh_with_normals or from its file: these,
-/// interpolated with the samples' barycentrics and normalised, x y z each; the normal of the
-/// triangle where the sum is zero.
+/// On a mesh that carries normals, these, interpolated with the barycentrics and normalised, x y z
+/// each; the normal of the triangle where the sum is zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_interpolated_normals(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
@@ -116,8 +115,7 @@ pub unsafe extern "C" fn azulejo_points_triangles(points: *const azulejo_points)
 }
 
 /// On a mesh, the barycentric coordinates u v of each sample in its triangle (a, b, c), as in
-/// Embree: the position is (1-u-v)*a + u*b + v*c, and other attributes of the vertices follow in
-/// the same manner.
+/// Embree: the position is (1-u-v)*a + u*b + v*c, and so are other attributes of the vertices.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_points_barycentrics(points: *const azulejo_points) -> *const f32 {
     // SAFETY: handed on from the caller.
@@ -133,11 +131,10 @@ pub unsafe extern "C" fn azulejo_points_radii(points: *const azulejo_points) -> 
 }
 
 /// The ranks of the samples of a set in progressive order: for each sample the distance to the
-/// nearest one that was there when it was accepted, or on meshes a little less, rounded down to a
-/// float. They never rise. The first i samples are at least as far apart as the i-th rank, and no
-/// place is farther from all of them than the `quotient` of the options times the i-th rank, and 6
-/// float spacings; if i is below 100, than twice the rank, or the square of the quotient times it
-/// if that is more.
+/// nearest one before it, or on meshes a little less, rounded down to a float. They never rise. The
+/// first i samples are at least as far apart as the i-th rank, and no place is farther from all of
+/// them than the `quotient` of the options times that rank, and 6 float spacings; if i is below
+/// 100, than twice the rank or, if that is more, the square of the quotient times it.
 ///
 /// In the plane this holds from the samples of the coarsest level on, those with the rank of the
 /// first: one sample only, unless the options have a `coarsest`. On meshes it holds for every i;

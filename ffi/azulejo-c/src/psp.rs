@@ -21,8 +21,7 @@ use crate::progress::{Watch, azulejo_progress_fn};
 use crate::psp_report::azulejo_psp_report;
 use crate::status::{Failure, azulejo_status};
 
-/// A set of samples on a mesh that can grow. It keeps its context and its mesh, which may be freed
-/// before it. Several threads may copy its points at once.
+/// A set of samples on a mesh that can grow. It keeps its context and mesh.
 pub struct azulejo_psp {
     context: azulejo_context,
     watch: Watch,
@@ -90,11 +89,11 @@ pub const AZULEJO_PROJECTORS_GLOBAL: u32 = 1;
 /// Ray packets of Embree find where patterns meet the mesh.
 pub const AZULEJO_ENGINE_EMBREE: u32 = 0;
 /// Triangles are rasterised over the patterns (thesis section 3.4.3). With local projectors the
-/// samples are those of Embree, to the bit. With global ones the hits are those of Embree but for
-/// rounding by up to 2e-7 of the mesh's diagonal, and do not depend on the machine.
+/// samples are those of Embree, to the bit, with global ones hits differ by up to 2e-7 of its
+/// diagonal.
 pub const AZULEJO_ENGINE_RASTERISER: u32 = 1;
-/// The default, by cost: the rasteriser for local projectors, which took the least time on every
-/// mesh measured, and for global ones Embree where there is one.
+/// The default: the rasteriser for local projectors, which took the least time on every mesh
+/// measured, and for global ones Embree where there is one.
 pub const AZULEJO_ENGINE_AUTO: u32 = 2;
 
 /// The `iterations` of azulejo_psp_options that stand for a rule.
@@ -108,12 +107,11 @@ pub struct azulejo_psp_options {
     pub struct_size: u32,
     /// The number of projections of patterns onto the whole mesh by azulejo_psp_sample, before it
     /// fills the gaps. AZULEJO_ITERATIONS_DEFAULT, the default: 1 where the set is made sooner with
-    /// it, by a rule of mesh, radius and given samples, or if `maximal` is 0, and 0 otherwise. A
-    /// `maximal` of 0 with 0 iterations is refused. azulejo_psp_create refuses any value but the
-    /// default.
+    /// it, by a rule of mesh, radius and given samples, or if `maximal` is 0, else 0. 0 with a
+    /// `maximal` of 0 is refused. azulejo_psp_create refuses any value but the default.
     pub iterations: u32,
-    /// The smallest straight distance between two samples: above 0, and at least 64 float spacings.
-    /// It has no default; with a `count` it must be 0.
+    /// The smallest straight distance between two samples: above 0, and at least 64 float spacings;
+    /// it has no default. With a `count` it must be 0.
     pub radius: f64,
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
@@ -124,37 +122,28 @@ pub struct azulejo_psp_options {
     pub priority: u32,
     /// An AZULEJO_ENGINE_ constant; default auto.
     pub engine: u32,
-    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well. `iterations` above 0 and a `maximal` of
-    /// 0 are then refused. Must be any in azulejo_psp_create.
+    /// An AZULEJO_ORDER_ constant; default any. Progressive order refuses `iterations` above 0 and
+    /// a `maximal` of 0. Must be any in azulejo_psp_create.
     pub order: u32,
     /// Default NULL: the callback of the context. A psp handle keeps it for all its calls.
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// The exact number of samples; default 0: as many as the radius gives. The set is filled only,
-    /// as in progressive order. Must be 0 in azulejo_psp_create.
+    /// The exact number of samples; default 0: as many as the radius gives. As in progressive order
+    /// there are no iterations. Must be 0 in azulejo_psp_create.
     pub count: usize,
-    /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8).
+    /// See "Order" in azulejo.h; default 0.
     pub quotient: f64,
-    /// Samples that stand already, x y z each, anywhere, on the mesh or not; NULL, the default, for
-    /// none. They are never moved, dropped or compared with each other, and are not returned: new
-    /// samples are at least the clearance from each of them, and every place of the surface is
-    /// within the radius of a new sample or within the clearance of a given one. A psp handle
-    /// copies what it needs of them.
+    /// See "Given samples" in azulejo.h.
     pub given_positions: *const f32,
-    /// The clearance of each, 0 or more; 0 has no effect. NULL, the default: all have the radius of
-    /// the set, which with a `count` is refused. For azulejo_psp_sample_classes a row for each
-    /// given sample, with a clearance for each class (NULL: its own radius).
+    /// The clearance of each; default NULL.
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
-    /// that the two sides of a thin wall are sampled as if they were far apart; triangles must be
-    /// wound consistently. From -1, the default, which turns it off, to 1, with which only samples
-    /// with the same normal see each other. Given samples act on all sides. Above -1 iterations are
-    /// refused, as projection does not tell sides apart.
+    /// that the two sides of a thin wall are sampled as if far apart; triangles must be wound
+    /// consistently. From -1, the default, which turns it off, to 1, with which only samples with
+    /// the same normal see each other. Given samples act on all sides. Above -1 no iterations.
     pub cosine: f64,
     /// An AZULEJO_PROJECTORS_ constant; default local.
     pub projectors: u32,
@@ -315,13 +304,11 @@ pub unsafe extern "C" fn azulejo_psp_options_init(
 
 /// Makes an empty set on a mesh. It does not report progress.
 ///
-/// options: `iterations`, `maximal`, `count` and `order` must have their defaults: here each call
-/// says what it does.
+/// options: `iterations`, `maximal`, `count` and `order` must have their defaults.
 ///
-/// At most O(triangles + given samples) time.
+/// O(triangles + given samples) time at most.
 ///
-/// Errors: AZULEJO_ERROR_TOO_LARGE has the estimated number of samples on the surface without given
-/// ones.
+/// Errors: AZULEJO_ERROR_TOO_LARGE has the estimated number of samples without given ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_create(
     context: *const azulejo_context,
@@ -347,12 +334,11 @@ pub unsafe extern "C" fn azulejo_psp_create(
 
 /// Adds samples: projects patterns of samples onto the mesh, in each iteration along three
 /// orthogonal directions of a random frame, and keeps what does not conflict with the set (thesis
-/// chapter 3). Two calls add what one call with the sum of their iterations adds. The first call
-/// prepares the mesh for the engine.
+/// chapter 3). Two calls add what one call with the sum of their iterations adds.
 ///
 /// iterations: how many, 0 or more. A set that has been edited makes none. None is made, nor
-/// reported, where the box of the mesh is out of all proportion to its surface, as for small parts
-/// far apart: above 20 rays per sample that there is room for and 10 million in all.
+/// reported, where the box of the mesh is out of all proportion to its surface: above 20 rays per
+/// sample that there is room for and 10 million in all.
 ///
 /// O((diagonal of the mesh / radius)^2 + hits) time for each iteration, and for the first one
 /// O(triangles * log triangles).
@@ -394,8 +380,8 @@ pub unsafe extern "C" fn azulejo_psp_fill(psp: *mut azulejo_psp, report: *mut az
     unsafe { change(psp, report, fill) }
 }
 
-/// Copies the set in its present state, with normals, triangles and barycentrics; one that has been
-/// edited by rising ids. Several threads may do so at once. O(samples).
+/// Copies the set, with normals, triangles and barycentrics; an edited one by rising ids.
+/// O(samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *mut azulejo_points) -> azulejo_status {
     // SAFETY: handed on from the caller.
@@ -407,26 +393,26 @@ pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *
     })
 }
 
-/// Frees the handle, but not the points taken from it. Not from its own progress callback.
+/// Frees the handle. Not from its own progress callback.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_free(psp: *mut azulejo_psp) {
     // SAFETY: handed on from the caller.
     unsafe { handles::free("psp", psp) };
 }
 
-/// Samples a mesh in one call with one progress: azulejo_psp_create, azulejo_psp_advance by
-/// `iterations` and, if `maximal` is 1, azulejo_psp_fill, whose complexity and errors it has.
+/// Samples a mesh in one call: azulejo_psp_create, azulejo_psp_advance by `iterations` and, if
+/// `maximal` is 1, azulejo_psp_fill, whose complexity and errors it has.
 ///
 /// With a `count` the set has exactly so many samples: no two are closer than `radius` in the
-/// report, and every place of the surface is within `covering_radius` of one, in most cases less
-/// than 1.1 times that radius. It takes about twice the time of a set of known radius.
+/// report, and every place is within its `covering_radius` of one, mostly less than 1.1 times that
+/// radius. It takes about twice the time of a set of known radius.
 ///
-/// In progressive order the samples are sorted coarse to fine, from a single one on
-/// (azulejo_points_ranks). A set with a smaller count is a prefix of one with a larger count, bit
-/// for bit, for the same mesh, quotient and seed: levels of detail nest. Sets of two radii share
-/// all samples with ranks of at least `quotient` times the larger radius, of the first 100 those
-/// with ranks of at least 2.25 times it. It takes several times as long as a set in any order, and
-/// more with many triangles per sample: log(diagonal / radius) / log(quotient) levels visit all.
+/// In progressive order the samples are sorted coarse to fine, from a single one on. A set with a
+/// smaller count is a prefix of one with a larger count, bit for bit, for the same mesh, quotient
+/// and seed: levels of detail nest. Sets of two radii share all samples with ranks of at least
+/// `quotient` times the larger radius, of the first 100 those of at least 2.25 times it. It takes
+/// several times as long as a set in any order, more with many triangles per sample: each of the
+/// log(diagonal / radius) / log(quotient) levels visits all.
 ///
 /// out: the samples with normals, triangles and barycentrics.
 ///

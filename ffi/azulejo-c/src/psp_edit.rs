@@ -17,11 +17,11 @@ use crate::status::{Failure, azulejo_status};
 
 /// Erases the samples of a set in a region. From the first edit on the set can be filled again
 /// (azulejo_psp_refill, azulejo_psp_fill) but makes no more iterations, and every sample has an id
-/// (azulejo_points_ids): 0, 1, 2 and so on for those that stand then, in their order. A sample
-/// keeps its id and all its bytes until it is erased, and no other sample ever gets that id.
+/// (azulejo_points_ids): 0, 1, 2 and so on in their order at that time. A sample keeps its id and
+/// all its bytes until it is erased, and no other sample ever gets that id.
 ///
 /// To undo a stroke of a brush, erase what azulejo_psp_refill added, by azulejo_psp_erase_ids, and
-/// give back what this call erased, by azulejo_psp_restore: the set is then as before, bit for bit.
+/// put back what this call erased, by azulejo_psp_restore: the set is then as before, bit for bit.
 /// To redo it, erase the same region again and refill with the same seed.
 ///
 /// erased: the erased samples with their ids, by rising ids; NULL if they are not wanted.
@@ -94,7 +94,7 @@ pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *con
 /// clearances: one for each, 0 or more; NULL: the radius of the set.
 ///
 /// first_id: the id of the first of them, which the others follow; NULL if it is not wanted. Those
-/// of the options have the ids from 0 on. Ids of given samples and of samples are independent.
+/// of the options have the ids from 0 on. Samples have ids of their own.
 ///
 /// erased: as in azulejo_psp_erase.
 ///
@@ -143,14 +143,12 @@ pub unsafe extern "C" fn azulejo_psp_remove_given(
 /// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
 /// or given samples removed since the last refill. All samples that stand stay as they are.
 ///
-/// The new samples depend on `seed`, on the edits and on what stands around them. They can lie up
-/// to a radius outside a region that was erased, since that is how far the erased samples covered
-/// the surface.
+/// The new samples depend on `seed`, on the edits and on what stands around, up to a radius outside
+/// an erased region.
 ///
 /// added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 ///
-/// O(surface in and around the edited regions + given samples); the first call on a handle also
-/// O(triangles).
+/// O(surface in and around the edited regions + given samples); at first also O(triangles).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_refill(
     psp: *mut azulejo_psp,
@@ -174,19 +172,16 @@ pub unsafe extern "C" fn azulejo_psp_refill(
     })
 }
 
-/// Samples the part of a mesh in a region, once: no place of the surface in the region is farther
-/// than the radius from all samples or than its clearance from all given ones, up to the tolerance
-/// of azulejo_psp_fill. What lies outside counts as covered. Samples stand in the region, or at
-/// most 6 radii outside it on a triangle that it touches. For many edits of one set see
-/// azulejo_psp_erase.
+/// Samples the part of a mesh in a region, once, as azulejo_psp_fill: what lies outside counts as
+/// covered. Samples stand in the region, or at most 6 radii outside it on a triangle that it
+/// touches. For many edits of one set see azulejo_psp_erase.
 ///
 /// options: `iterations`, `maximal`, `count`, `order`, `projectors`, `priority` and `engine` must
 /// have their defaults.
 ///
 /// out: the samples with normals, triangles and barycentrics.
 ///
-/// report: what the call did, or NULL; `rho` is 0, and `covering_radius` and `uncovered_after` are
-/// -1.
+/// report: `rho` is 0, `covering_radius` and `uncovered_after` are -1.
 ///
 /// O(surface in the region + given samples + triangles / 16); the first call on a mesh
 /// O(triangles).

@@ -17,8 +17,8 @@ pub struct azulejo_psp_report {
     pub samples: u64,
     /// The samples that the call added.
     pub accepted: u64,
-    /// The rays that meet the box of the mesh, which the call traced. For the rasteriser: the
-    /// points of those of its tiles, at most 48 radii wide, that have triangles near them.
+    /// The rays that meet the box of the mesh, or the points of those tiles of the rasteriser, at
+    /// most 48 radii wide, that have triangles near them.
     pub rays: u64,
     /// The places where rays met the mesh.
     pub hits: u64,
@@ -38,21 +38,20 @@ pub struct azulejo_psp_report {
     pub merge_seconds: f64,
     /// The part of it in which gaps were searched for and filled.
     pub fill_seconds: f64,
-    /// The radius of the set in units of d_max after the call: about 0.78 for a maximal set, 0 for
-    /// no samples. The smallest distance hardly exceeds the radius in large sets.
+    /// The radius of the set in units of d_max: about 0.78 for a maximal set, 0 for no samples.
     pub rho: f64,
-    /// If the call filled gaps: the fraction of the area that was uncovered before, estimated with
-    /// random points (docs/design/surface.md). Else -1.
+    /// If the call filled gaps: the fraction of the area that was uncovered before, an estimate.
+    /// Else -1.
     pub uncovered_before: f64,
-    /// If the call filled gaps: 0, the fraction that is uncovered after it. Else -1.
+    /// If the call filled gaps: 0, what is uncovered after it. Else -1.
     pub uncovered_after: f64,
-    /// The radius of the set: the one asked for or, for a count, the one that was found. No two
-    /// samples are closer. 0 where radii vary; in progressive order then what they are multiplied
-    /// by, which is 1, or for a density the radius at density 1.
+    /// The radius of the set: the one asked for, or found for a count. No two samples are closer. 0
+    /// where radii vary; in progressive order then the factor of radii, 1, or for a density the
+    /// radius at density 1.
     pub radius: f64,
-    /// A bound of the covering radius, up to 6 float spacings: the radius itself after gaps were
-    /// filled, a little more for a count. Where `radius` is not a distance, the bound of what radii
-    /// are multiplied by. -1 where none is known.
+    /// A bound of the covering radius, up to 6 float spacings, or where `radius` is a factor of
+    /// radii, of that factor: `radius` after gaps were filled, a little more for a count. -1:
+    /// unknown.
     pub covering_radius: f64,
 }
 

@@ -6,10 +6,9 @@ use crate::boundary::check_reserved;
 use crate::growing::{self, growing};
 use crate::status::{Failure, azulejo_status};
 
-/// A part of space: the points that lie in a box and within a distance of a centre, the boundary
-/// included. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
-/// for a box, or all four for what they have in common. The plane lies at the height 0: there a
-/// ball is a disk, and `min` and `max` need x and y alone.
+/// A part of space: the points, boundary included, that lie in a box and within a distance of a
+/// centre. Both are without end by default: set `centre` and `radius` for a ball, `min` and `max`
+/// for a box, or all four for what they have in common. The plane lies at the height 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_region {
@@ -44,7 +43,7 @@ impl azulejo_region {
     }
 }
 
-/// Writes the defaults: all of space.
+/// Writes the defaults.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_region_init(region: *mut azulejo_region, struct_size: usize) -> azulejo_status {
     // SAFETY: handed on from the caller.

@@ -12,9 +12,8 @@ use crate::mesh::azulejo_mesh;
 use crate::progress::Watch;
 use crate::status::azulejo_status;
 
-/// The report of azulejo_dcr_remesh. The mesh is a manifold if `non_manifold_vertices` is 0, and
-/// closed if `boundary_edges` is 0 too: no edge has more than two triangles, and two triangles at
-/// an edge are wound alike.
+/// The report of azulejo_dcr_remesh. The mesh is a manifold if `non_manifold_vertices` is 0, closed
+/// if `boundary_edges` is 0 too, and wound alike at each edge.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_dcr_remesh_report {
@@ -26,7 +25,7 @@ pub struct azulejo_dcr_remesh_report {
     pub triangles: u64,
     /// Those that not all of their three corners have in their Delaunay stars.
     pub disputed: u64,
-    /// The triangles of stars that do not go with others and are not in the mesh.
+    /// Those of stars that are not in the mesh.
     pub left_out: u64,
     /// The edges with one triangle, which are the boundary.
     pub boundary_edges: u64,
@@ -95,14 +94,12 @@ pub unsafe extern "C" fn azulejo_dcr_remesh_report_init(
 }
 
 /// Makes a mesh whose vertices are samples of another mesh (thesis fig. 1.12): remeshing, to more
-/// triangles or to fewer. The samples must be spread about evenly, as maximal and relaxed sets are;
-/// relaxed ones give the better angles. The triangles are those of the samples' Delaunay stars that
-/// go together.
+/// triangles or to fewer. The samples must be spread about evenly, as maximal and, with better
+/// angles, relaxed sets are. Triangles are those of the samples' Delaunay stars that go together.
 ///
 /// Samples that resolve the features of a closed surface, wound alike everywhere, give a closed
-/// manifold of the same topology. Where they do not, as on thin blades and between faces that are
-/// wound against each other, there are holes. Triangles do not cross open boundaries: the new
-/// boundary is that of the outermost samples.
+/// manifold of the same topology; elsewhere, as on thin blades, there are holes. Triangles do not
+/// cross open boundaries: the new boundary is that of the outermost samples.
 ///
 /// triangles, barycentrics: as for azulejo_dcr_surface_relax.
 ///

@@ -11,9 +11,9 @@ use crate::handles::{self, handle};
 use crate::status::{Failure, azulejo_status};
 
 /// The power spectrum of a set of the plane, or the mean of several: |sum of exp(-2 pi i f x)|^2 /
-/// count on a square grid of frequencies f. Its mean is 1 for a Poisson process (Ulichney 1988;
-/// Lagae and Dutre 2008). Frequencies are in units of sqrt(count / area), so that sets of different
-/// size can be compared; the first ring of blue noise lies near 1.
+/// count on a square grid of frequencies f (Ulichney 1988; Lagae and Dutre 2008). Its mean is 1 for
+/// a Poisson process. Frequencies are in units of sqrt(count / area): blue noise has a first ring
+/// near 1.
 pub struct azulejo_spectrum {
     periodogram: Periodogram,
 }
@@ -28,8 +28,8 @@ pub struct azulejo_annulus {
     pub frequency: f64,
     /// The mean power: the radial mean; 1 for a Poisson process.
     pub power: f64,
-    /// The variance of the power over its squared mean. The spectrum of one isotropic set has 1 (0
-    /// dB), the mean of n such spectra has 1/n; preferred directions give more.
+    /// The variance of the power over its squared mean: 1 (0 dB) for one isotropic set, 1/n for the
+    /// mean of n; preferred directions give more.
     pub anisotropy: f64,
     /// The number of its frequencies, at least 2; one and its opposite count once.
     pub count: u64,
@@ -46,19 +46,18 @@ pub struct azulejo_spectrum_report {
     /// The distances of neighbouring columns and rows.
     pub frequency_step: [f64; 2],
     /// The effective Nyquist frequency: half of the largest frequency up to which the mean power is
-    /// below 0.1 (Heck et al. 2013, who divide it by 0.5). 0.5 for a square lattice, 0.537 for a
-    /// hexagonal one, 0 for a Poisson process. -1 if the spectrum ends too early, below about 1.5.
+    /// below 0.1 (Heck et al. 2013, who divide it by 0.5). 0.537 for a hexagonal lattice, 0 for a
+    /// Poisson process. -1 if the spectrum ends too early, below about 1.5.
     pub effective_nyquist: f64,
     /// The oscillation: ten times the root mean square of the power's deviation from 1, by area,
     /// from the frequency where it first reaches 0.98 to 5 above it (Heck et al. 2013). 0 for a
     /// Poisson process. -1 if the spectrum ends too early; frequencies up to 6.5 mostly suffice.
     pub oscillation: f64,
     /// The scatter of the power about its radial mean, over the frequencies from `low` to `high`: 1
-    /// for one set without order over long distances, 1/n for the mean of n, more if parts are
-    /// repeated. 0 if there are no such frequencies.
+    /// for one set without order over long distances, 1/n for the mean of n, more if parts repeat.
     pub contrast: f64,
-    /// The largest power of a frequency from `low` to `high`, over the radial mean there. By chance
-    /// alone it is about ln n for n frequencies of one set. 0 if there are no such frequencies.
+    /// The largest power of a frequency from `low` to `high`, over the radial mean there: by chance
+    /// about ln n for n frequencies of one set.
     pub peak: f64,
     /// That frequency, x y; its opposite has the same power.
     pub peak_frequency: [f64; 2],
@@ -85,17 +84,17 @@ pub unsafe extern "C" fn azulejo_spectrum_report_init(
 }
 
 /// Makes the spectrum of points of the plane, by nonuniform fast Fourier transform: exact up to the
-/// rounding to float. A periodic domain has exact frequencies, whole numbers of waves per period.
-/// In a bounded one points have the weights of a taper that is 0 from the inscribed ellipse on.
+/// rounding to float. A periodic domain has whole numbers of waves per period. In a bounded one
+/// points have the weights of a taper that is 0 from the inscribed ellipse on.
 ///
 /// set: the points may lie outside the domain; of a bounded one, at least one inside the ellipse.
 ///
-/// size: the number of frequencies per side, 2 to 4096. The lowest are -(size / 2) steps of 1 /
-/// width and 1 / height.
+/// size: the number of frequencies per side, 2 to 4096. From -(size / 2) steps of 1 / width and
+/// height.
 ///
-/// frequency_stride: 1 takes all frequencies; n, up to 4096, every n-th along both axes, so that
-/// the spectra of large sets reach as far as those of small ones. For all figures, size *
-/// frequency_stride of about 13 * sqrt(count) is enough on a square.
+/// frequency_stride: n takes every n-th frequency along both axes, 1 to 4096, so that the spectra
+/// of large sets reach as far as those of small ones. For all figures, size * frequency_stride of
+/// about 13 * sqrt(count) is enough on a square.
 ///
 /// O(count + size^2 * log size) time, and about 40 bytes of memory per point and per frequency.
 #[unsafe(no_mangle)]
@@ -155,8 +154,7 @@ pub unsafe extern "C" fn azulejo_spectrum_power(spectrum: *const azulejo_spectru
         .map_or(std::ptr::null(), |spectrum| array(spectrum.periodogram.power()))
 }
 
-/// The radial curves of a spectrum, mean and anisotropy, out to its largest circle. O(size^2) time
-/// on the calling thread.
+/// The radial curves of a spectrum, mean and anisotropy, out to its largest circle. O(size^2).
 ///
 /// width: the width of an annulus, above 0. Annuli of fewer than two frequencies are left out.
 ///
@@ -227,7 +225,7 @@ impl From<Annulus> for azulejo_annulus {
 }
 
 /// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.
-/// O(size^2) time on the calling thread.
+/// O(size^2).
 ///
 /// width: that of the annuli of the radial mean, above 0; 0.05 suits some thousand points.
 ///
@@ -307,8 +305,7 @@ pub unsafe extern "C" fn azulejo_space_spectrum(
 /// The power of points of a cuboid on an axis of frequencies, 1 for a Poisson process. Planes
 /// across the axis, such as faces of blocks, show here and not in the radial mean.
 ///
-/// axis: 0 to 2. out: the power at 1, 2, ... `count` waves along this side of the cuboid.
-/// count: 1 to 65536.
+/// axis: 0 to 2. out: the power at 1, 2, ... `count` waves along this side. count: 1 to 65536.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_axis_power(
     context: *const azulejo_context,

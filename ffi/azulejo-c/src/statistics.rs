@@ -32,12 +32,11 @@ pub struct azulejo_plane_report {
     pub rho: f64,
     /// The covering radius: d_max / sqrt(3) for a hexagonal lattice; infinite for no point.
     pub covering_radius: f64,
-    /// The bond order psi6, 0 to 1: the mean over the points of |sum of exp(6 i angle)| / n for the
-    /// n directions of their Delaunay neighbours (Nelson and Halperin 1979). 1 for a hexagonal
-    /// lattice, 0.36 for a Poisson process.
+    /// The bond order psi6: the mean over the points of |sum of exp(6 i angle)| / n for the n
+    /// directions of their Delaunay neighbours (Nelson and Halperin 1979). 1 for a lattice, 0.36
+    /// for Poisson.
     pub bond_order: f64,
-    /// The number of Delaunay triangles; in a bounded domain those that do not cross its edges when
-    /// the set is mirrored at them.
+    /// The number of Delaunay triangles; in a bounded domain without those across its edges.
     pub triangles: u64,
     /// The fraction of triangles with an angle above 90 degrees.
     pub obtuse: f64,
@@ -84,8 +83,8 @@ pub unsafe extern "C" fn azulejo_plane_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Measures points of the plane: spacing, covering radius, bond order and Delaunay triangles.
-/// O(count * log count) time.
+/// Measures points of the plane: spacing, cover, bond order and Delaunay triangles. O(count * log
+/// count) time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
     context: *const azulejo_context,
@@ -142,16 +141,14 @@ pub struct azulejo_space_report {
     pub mean_distance: f64,
     /// The number of pairs of points that are nearer to each other than `radius`.
     pub conflicts: u64,
-    /// cbrt(sqrt(2) * volume / count), the distance of neighbours in the densest packing,
-    /// face-centred cubic; infinite for no point.
+    /// cbrt(sqrt(2) * volume / count), that of neighbours in the densest packing.
     pub packed_distance: f64,
-    /// The smallest distance in units of packed_distance: about 0.80 for maximal Poisson-disk sets,
-    /// at most 1 on a periodic domain.
+    /// The same in units of packed_distance: about 0.80 for maximal sets, at most 1 on a torus.
     pub rho: f64,
     /// The covering radius, too small by less than a billionth of it; infinite for no point.
     pub covering_radius: f64,
-    /// The covering radius in units of packed_distance: 0.71 for the densest packing, 0.63 for the
-    /// body-centred cubic lattice, which covers best; infinite for no point.
+    /// The same in units of packed_distance: 0.71 for the densest packing, 0.63 for the
+    /// body-centred cubic lattice, which covers best.
     pub relative_covering_radius: f64,
 }
 
@@ -193,10 +190,10 @@ pub unsafe extern "C" fn azulejo_space_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Measures points of a cuboid: spacing, conflicts and covering radius. O(count * log count) time,
-/// and as many steps as there are conflicts.
+/// Measures points of a cuboid: spacing, conflicts and covering radius. O(count * log count +
+/// conflicts).
 ///
-/// radius: pairs of points that are nearer are counted as conflicts; from 0, which counts none.
+/// radius: pairs of points that are nearer are conflicts; 0 counts none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_space_measure(
     context: *const azulejo_context,
@@ -257,8 +254,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 ///
 /// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
 ///
-/// out: an array of `bins` numbers: the mean of g in each bin. For sets of one kind and count, the
-/// mean of these over the sets is their g.
+/// out: an array of `bins` numbers: the mean of g in each bin.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_radial_distribution(
     context: *const azulejo_context,

@@ -5,8 +5,7 @@ use std::ffi::{CStr, c_char};
 
 use azulejo_core::Error;
 
-/// The result of a call: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Codes are never reused;
-/// later versions may add some.
+/// The result of a call: AZULEJO_OK or a negative AZULEJO_ERROR_ code. Later versions may add some.
 pub type azulejo_status = i32;
 
 /// The call succeeded.
@@ -84,9 +83,9 @@ thread_local! {
     static LAST_ERROR: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Copies the message of this thread's last failed call: one line of UTF-8, terminated by a NUL;
-/// empty if no call has failed. Calls that succeed leave the message as it is, so ask right after
-/// the call that failed. Returns the size of the whole message in bytes, including the NUL.
+/// Copies the message of this thread's last failed call, which calls that succeed leave as it is:
+/// one line of UTF-8, terminated by a NUL; empty if no call has failed. Returns the size of the
+/// whole message in bytes, including the NUL.
 ///
 /// buffer: receives at most `capacity` bytes including the NUL; a longer message is cut between two
 /// characters. May be NULL if `capacity` is 0.
@@ -143,8 +142,7 @@ names! {
     AZULEJO_ERROR_INTERNAL,
 }
 
-/// The name of a status: "AZULEJO_ERROR_BUSY" for AZULEJO_ERROR_BUSY. NULL for a number that is
-/// none of this library's. The text is never freed.
+/// The name of a status, such as "AZULEJO_ERROR_BUSY"; NULL for any other number. Never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_status_name(status: azulejo_status) -> *const c_char {
     name(status).map_or(std::ptr::null(), CStr::as_ptr)

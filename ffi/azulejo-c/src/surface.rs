@@ -20,14 +20,13 @@ use crate::status::azulejo_status;
 pub struct azulejo_dcr_surface_options {
     /// The size of the struct in bytes; set by the _init function.
     pub struct_size: u32,
-    /// The largest number of steps; default 100. The call ends earlier when the set has converged.
-    /// 0 returns the samples as they are, those outside their triangle moved to its edge.
+    /// The largest number of steps; default 100. 0: none moves, except into its triangle.
     pub max_iterations: u32,
-    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
-    /// Any negative number, such as the default -1, selects 0.0005.
+    /// The motion (see the report) at which the set has converged; 0 makes all steps. Any negative
+    /// number, such as the default -1, selects 0.0005.
     pub tolerance: f64,
-    /// Directions in which samples are separated that coincide or lie on edges of triangles, and
-    /// the points onto which clustered samples are redistributed; default 0.
+    /// It parts samples that coincide or lie on edges of triangles, and draws the points onto which
+    /// clustered samples are redistributed; default 0.
     pub seed: u64,
     /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
@@ -65,12 +64,10 @@ pub struct azulejo_dcr_surface_report {
     pub reserved: u32,
     /// Half of the distance that samples moved over the last 10 steps, root mean square, in d_max.
     pub motion: f64,
-    /// The smallest straight distance between two samples, near on the surface or not: never less
-    /// than before the call; infinite for fewer than two samples.
+    /// The smallest straight distance between two samples: never less than before the call.
     pub smallest_distance: f64,
-    /// The smallest distance in units of d_max: about 0.77 for a maximal set, more for a relaxed
-    /// one, except on meshes with parts that are nearer to each other than samples are. Infinite
-    /// for fewer than two samples.
+    /// The same in units of d_max: about 0.77 for a maximal set, more for a relaxed one, except on
+    /// meshes with parts that are nearer to each other than samples are.
     pub rho: f64,
 }
 
@@ -110,27 +107,23 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 }
 
 /// Relaxes samples on a mesh: they move on the surface, away from neighbours that are too close and
-/// into holes, until the set has converged or all steps are made (the future work of thesis chapter
-/// 4). Neighbours are near on the surface, not on the other side of a thin wall. Triangles are
-/// connected by edges between the same two positions; any other edge is a boundary, which samples
-/// do not cross.
+/// into holes (the future work of thesis chapter 4). Neighbours are near on the surface, not on the
+/// other side of a thin wall. Triangles are connected by edges between the same two positions; any
+/// other edge is a boundary, which samples do not cross.
 ///
-/// No two samples get nearer to each other than the nearest two were before, on whatever sides of
-/// walls and boundaries: straight distances, in double arithmetic on the positions, without
-/// tolerance. More than 64 samples that are clustered on a part of the surface are redistributed
-/// over all of it before the first step, by the area of each connected part, where there is room
-/// for that at the same smallest distance.
+/// No two samples get nearer to each other than the nearest two were before: straight distances, in
+/// double arithmetic, without tolerance. More than 64 samples that are clustered are redistributed
+/// over all of the surface before the first step, by the area of each connected part, where there
+/// is room for that at the same smallest distance.
 ///
-/// triangles, barycentrics: one triangle and u v for each sample, as azulejo_points_triangles and
-/// azulejo_points_barycentrics return them. Barycentrics outside their triangle by at most 1e-6 are
-/// moved onto it; those farther outside, and triangles that have no area or are left out by the
-/// mask, are refused.
+/// triangles, barycentrics: one triangle and u v for each sample. Barycentrics outside their
+/// triangle by at most 1e-6 are moved onto it; those farther outside, and triangles that have no
+/// area or are left out by the mask, are refused.
 ///
 /// out: after the last whole step, in the same order, with normals, triangles and barycentrics.
 ///
 /// O(triangles) time once, and O(count) for each step, somewhat more with many triangles between
-/// neighbouring samples. Steps take longer beside many boundaries and for clustered samples.
-/// O(count + triangles) memory.
+/// neighbours, beside boundaries and for clustered samples. O(count + triangles) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     context: *const azulejo_context,

@@ -32,9 +32,9 @@ pub struct azulejo_thin_options {
     pub order: u32,
     /// The smallest distance between two selected points, above 0; default 0: none.
     pub radius: f64,
-    /// The number of points; default 0: none. A cloud that has fewer is selected whole.
+    /// The number of points; default 0: none. A smaller cloud is selected whole.
     pub count: usize,
-    /// It chooses the first point of the progressive order, on which the others depend; default 0.
+    /// It chooses the first point of the progressive order; default 0.
     pub seed: u64,
     /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
@@ -72,7 +72,7 @@ pub struct azulejo_thin_report {
     /// The number of selected points.
     pub samples: u64,
     /// No two selected points are closer: the radius by which they were selected, otherwise the
-    /// smallest distance of two. Infinite for less than two points.
+    /// smallest distance of two; infinite for fewer.
     pub radius: f64,
     /// Wall time in seconds.
     pub seconds: f64,
@@ -97,8 +97,7 @@ impl azulejo_thin_options {
     }
 }
 
-/// Points of a cloud that azulejo_thin selected. Its arrays have one entry per selected point, in
-/// the same order.
+/// Points of a cloud that azulejo_thin selected.
 pub struct azulejo_selection {
     selection: Selection,
 }
@@ -108,18 +107,16 @@ handle!(azulejo_selection);
 /// Selects points of a cloud that are far from each other and near to all the others. With a
 /// radius, the selected points are at least the radius apart; without a count, every other point is
 /// nearer than the radius to one of them. Without a radius, no other point is farther from the
-/// selected ones than any two of them are from each other. In the progressive order this holds for
-/// the first points of the selection as well, for any number of them. Distances are computed in
-/// double arithmetic from the floats, without tolerance.
+/// selected ones than any two of them are from each other, in progressive order for each prefix.
+/// Distances are computed in double arithmetic from the floats, without tolerance.
 ///
-/// positions: the points, x y or x y z each; at most 2^32 - 1. They may coincide: by radius one of
-/// them is selected, in the progressive order they come last.
+/// positions: the points, at most 2^32 - 1. They may coincide: by radius one of them is selected,
+/// in the progressive order they come last.
 ///
 /// dimension: the number of coordinates of a point, 2 or 3.
 ///
-/// O(count * log(count)) time, whether or not the density of the cloud varies; at worst, in clouds
-/// made for it, O(count * selected). Up to 150 bytes of memory per point. Threads share the sorting
-/// of the points; the selection itself runs on one.
+/// O(count * log(count)) time; at worst, in clouds made for it, O(count * selected). Up to 150
+/// bytes of memory per point. Threads share the sorting of the points, not the selection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_thin(
     context: *const azulejo_context,
@@ -184,9 +181,8 @@ pub unsafe extern "C" fn azulejo_selection_indices(selection: *const azulejo_sel
 }
 
 /// The ranks of the points of a progressive selection: the distance of each from the nearest of
-/// those before it, rounded down to a float. They never rise; the first is infinite, those of
-/// points that coincide with one before are 0. All points with a rank of at least r are at least r
-/// apart. NULL for AZULEJO_ORDER_ANY.
+/// those before it, rounded down to a float, so that all points with a rank of at least r are at
+/// least r apart. They never rise; the first is infinite. NULL for AZULEJO_ORDER_ANY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_selection_ranks(selection: *const azulejo_selection) -> *const f32 {
     // SAFETY: handed on from the caller.

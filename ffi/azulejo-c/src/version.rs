@@ -17,10 +17,9 @@ pub extern "C" fn azulejo_version() -> u32 {
     AZULEJO_VERSION
 }
 
-/// 1 if the library was built with Embree, 0 otherwise: then AZULEJO_ENGINE_EMBREE and
-/// azulejo_mesh_create_from_embree are refused with AZULEJO_ERROR_UNSUPPORTED, and everything else
-/// is there. Embree is loaded by the first call that uses it; if the machine has none, such calls
-/// are refused with AZULEJO_ERROR_EMBREE, and the message names the file that was not found.
+/// 1 if the library was built with Embree, which is loaded by the first call that uses it; else 0.
+/// Without it AZULEJO_ENGINE_EMBREE and azulejo_mesh_create_from_embree are refused with
+/// AZULEJO_ERROR_UNSUPPORTED; if the machine has none, with AZULEJO_ERROR_EMBREE.
 #[unsafe(no_mangle)]
 pub extern "C" fn azulejo_has_embree() -> u32 {
     u32::from(HAS_EMBREE)

@@ -25,13 +25,11 @@ pub struct azulejo_volume_options {
     pub struct_size: u32,
     /// An AZULEJO_BOUNDARY_ constant; default periodic.
     pub boundary: u32,
-    /// Above 0, and at least 64 float spacings; it may exceed the domain. It has no default; with a
-    /// `count` it must be 0.
+    /// Above 0, and at least 64 float spacings; it has no default. With a `count` it must be 0.
     pub radius: f64,
     /// The lower corner of the domain, x y z; default 0 0 0.
     pub domain_min: [f64; 3],
-    /// The upper corner, above the lower one on all axes; default 1 1 1. No side may be longer than
-    /// 2^100 times another.
+    /// The upper one, as in azulejo_space_set; default 1 1 1.
     pub domain_max: [f64; 3],
     /// Any number; another seed gives another set. Default 0.
     pub seed: u64,
@@ -41,21 +39,15 @@ pub struct azulejo_volume_options {
     pub progress_user: *mut c_void,
     /// The exact number of samples; default 0: as many as the radius gives.
     pub count: usize,
-    /// An AZULEJO_ORDER_ constant; default any. In progressive order every prefix of the set is
-    /// well spread, and azulejo_points_ranks says how well.
+    /// An AZULEJO_ORDER_ constant; default any.
     pub order: u32,
     /// Always 0.
     pub reserved: u32,
-    /// Of a progressive order: how many times longer the radius of each level is than that of the
-    /// next, 1.02 to 1.5; azulejo_points_ranks says what follows. Default 0: 2^(1/8).
+    /// See "Order" in azulejo.h; default 0.
     pub quotient: f64,
-    /// Samples that stand already, x y z each, anywhere; on a torus they wrap. NULL, the default,
-    /// for none. They are never moved, dropped or compared with each other, and are not returned:
-    /// new samples are at least the clearance from each of them, and every place of the domain is
-    /// within the radius of a new sample or within the clearance of a given one.
+    /// See "Given samples" in azulejo.h.
     pub given_positions: *const f32,
-    /// The clearance of each, 0 or more; 0 has no effect. NULL, the default: all have the radius of
-    /// the set, which with a `count` is refused.
+    /// The clearance of each; default NULL.
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
@@ -170,8 +162,7 @@ impl azulejo_volume_options {
 /// cuboid has more, since samples stand on its faces. If a period of a torus is below the radius, a
 /// sample does not conflict with its own image. Samples are sorted by blocks of 9 to 18 radii.
 ///
-/// With a `count`, in progressive order or around given samples see the options; around given
-/// samples the tolerance is 7 float spacings, in progressive order 9.
+/// Around given samples the tolerance is 7 float spacings, in progressive order 9.
 ///
 /// O(samples) time and memory. Source: Ebeida et al. 2012.
 #[unsafe(no_mangle)]

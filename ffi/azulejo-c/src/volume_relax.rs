@@ -31,10 +31,10 @@ pub struct azulejo_volume_relax_options {
     pub max_iterations: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// The key by which coincident points are parted and clustered ones moved; default 0.
+    /// It parts coincident points and moves clustered ones; default 0.
     pub seed: u64,
-    /// The motion (see the report) at which the set has converged, at least 0; 0 makes all steps.
-    /// Any negative number, such as the default -1, selects 0.001.
+    /// The motion (see the report) at which the set has converged; 0 makes all steps. Any negative
+    /// number, such as the default -1, selects 0.001.
     pub tolerance: f64,
     /// Default NULL: the callback of the context, if it has one.
     pub progress: azulejo_progress_fn,
@@ -125,9 +125,9 @@ pub struct azulejo_volume_relax_report {
     pub reserved: u32,
     /// Half of the distance that points moved over the last 10 steps, root mean square, in d_fcc.
     pub motion: f64,
-    /// The smallest distance between two points; infinite for fewer than two.
+    /// The smallest distance; infinite for fewer than two points.
     pub smallest_distance: f64,
-    /// The same in units of d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed one.
+    /// The same in d_fcc: about 0.80 for a maximal set, 0.94 for a relaxed one.
     pub rho: f64,
 }
 
