@@ -32,11 +32,11 @@ typedef struct azulejo_kdrt_options {
     /// than the sampling. Default 0. Must be 0 with the report NULL, and in other calls.
     uint32_t measure_covering_radius;
     uint32_t order; ///< An AZULEJO_ORDER_ constant; default any. Must be any for streams.
-    double quotient; ///< See "Order" in azulejo.h. Scattered windows are faster with 2^(1/4).
+    double quotient; ///< 1.02 to 1.5; default 0: see "Order". Windows are faster with 2^(1/4).
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: the
     /// first level has one sample. Scattered windows of large domains are faster with 16 radii.
     double coarsest;
-    const float *given_positions; ///< See "Given samples" in azulejo.h; none with a `count`.
+    const float *given_positions; ///< Default NULL: see "Given samples"; none with a `count`.
     const double *given_clearances; ///< The clearance of each; default NULL.
     size_t given_count; ///< The number of given samples; default 0.
 } azulejo_kdrt_options;

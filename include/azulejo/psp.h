@@ -103,8 +103,8 @@ typedef struct azulejo_psp_options {
     /// The exact number of samples; default 0: as many as the radius gives. As in progressive order
     /// there are no iterations. Must be 0 in azulejo_psp_create.
     size_t count;
-    double quotient; ///< See "Order" in azulejo.h; default 0.
-    const float *given_positions; ///< See "Given samples" in azulejo.h.
+    double quotient; ///< 1.02 to 1.5; default 0: see "Order" in azulejo.h.
+    const float *given_positions; ///< Default NULL: see "Given samples" in azulejo.h.
     const double *given_clearances; ///< The clearance of each; default NULL.
     size_t given_count; ///< The number of given samples; default 0.
     /// Samples on triangles whose normals have a smaller cosine than this ignore each other, so
@@ -292,10 +292,10 @@ typedef struct azulejo_psp_adaptive_options {
     uint64_t seed; ///< Any number; another seed gives another set. Default 0.
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
-    const float *given_positions; ///< See "Given samples" in azulejo.h.
-    const double *given_clearances; ///< The clearance of each; required with them.
+    const float *given_positions; ///< Default NULL: see "Given samples" in azulejo.h.
+    const double *given_clearances; ///< The clearance of each, required; default NULL.
     size_t given_count; ///< The number of given samples; default 0.
-    double quotient; ///< See "Order" in azulejo.h; default 0.
+    double quotient; ///< 1.02 to 1.5; default 0: see "Order" in azulejo.h.
 } azulejo_psp_adaptive_options;
 
 azulejo_status azulejo_psp_adaptive_options_init(azulejo_psp_adaptive_options *options,

@@ -24,8 +24,8 @@ typedef struct azulejo_volume_options {
     size_t count; ///< The exact number of samples; default 0: as many as the radius gives.
     uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
     uint32_t reserved; ///< Always 0.
-    double quotient; ///< See "Order" in azulejo.h; default 0.
-    const float *given_positions; ///< See "Given samples" in azulejo.h.
+    double quotient; ///< 1.02 to 1.5; default 0: see "Order" in azulejo.h.
+    const float *given_positions; ///< Default NULL: see "Given samples" in azulejo.h.
     const double *given_clearances; ///< The clearance of each; default NULL.
     size_t given_count; ///< The number of given samples; default 0.
     double leaf_size; ///< The shortest side of tiles in radii, 6 or more; default 0: not tiled.
@@ -79,7 +79,7 @@ typedef struct azulejo_volume_inside_options {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// An AZULEJO_SURFACE_ constant; default open. `first` takes a radius, and any order.
     uint32_t surface;
-    double radius; ///< As in azulejo_volume_options, up to `quotient`.
+    double radius; ///< Above 0, and at least 64 float spacings; has no default. 0 with a `count`.
     /// Places inside may stay open that are nearer to the surface than sqrt(3) times this many
     /// radii: 1/256 to 1/2; default 0.0625. A smaller one takes longer.
     double tolerance;
@@ -89,8 +89,8 @@ typedef struct azulejo_volume_inside_options {
     size_t count; ///< The exact number of samples; default 0: as many as the radius gives.
     uint32_t order; ///< An AZULEJO_ORDER_ constant; default any.
     uint32_t reserved; ///< Always 0.
-    double quotient; ///< See "Order" in azulejo.h; default 0.
-    const float *given_positions; ///< See "Given samples" in azulejo.h.
+    double quotient; ///< 1.02 to 1.5; default 0: see "Order" in azulejo.h.
+    const float *given_positions; ///< Default NULL: see "Given samples" in azulejo.h.
     const double *given_clearances; ///< The clearance of each; default NULL.
     size_t given_count; ///< Their number; default 0.
     double thickness; ///< Only places this near the surface, at least 1/256 radius; default 0: all.

@@ -56,13 +56,13 @@ pub struct azulejo_psp_adaptive_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
-    /// See "Given samples" in azulejo.h.
+    /// Default NULL: see "Given samples" in azulejo.h.
     pub given_positions: *const f32,
-    /// The clearance of each; required with them.
+    /// The clearance of each, required; default NULL.
     pub given_clearances: *const f64,
     /// The number of given samples; default 0.
     pub given_count: usize,
-    /// See "Order" in azulejo.h; default 0.
+    /// 1.02 to 1.5; default 0: see "Order" in azulejo.h.
     pub quotient: f64,
 }
 

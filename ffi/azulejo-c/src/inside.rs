@@ -29,7 +29,7 @@ pub struct azulejo_volume_inside_options {
     pub struct_size: u32,
     /// An AZULEJO_SURFACE_ constant; default open. `first` takes a radius, and any order.
     pub surface: u32,
-    /// As in azulejo_volume_options, up to `quotient`.
+    /// Above 0, and at least 64 float spacings; has no default. 0 with a `count`.
     pub radius: f64,
     /// Places inside may stay open that are nearer to the surface than sqrt(3) times this many
     /// radii: 1/256 to 1/2; default 0.0625. A smaller one takes longer.
@@ -46,9 +46,9 @@ pub struct azulejo_volume_inside_options {
     pub order: u32,
     /// Always 0.
     pub reserved: u32,
-    /// See "Order" in azulejo.h; default 0.
+    /// 1.02 to 1.5; default 0: see "Order" in azulejo.h.
     pub quotient: f64,
-    /// See "Given samples" in azulejo.h.
+    /// Default NULL: see "Given samples" in azulejo.h.
     pub given_positions: *const f32,
     /// The clearance of each; default NULL.
     pub given_clearances: *const f64,

@@ -51,12 +51,12 @@ pub struct azulejo_kdrt_options {
     pub measure_covering_radius: u32,
     /// An AZULEJO_ORDER_ constant; default any. Must be any for streams.
     pub order: u32,
-    /// See "Order" in azulejo.h. Scattered windows are faster with 2^(1/4).
+    /// 1.02 to 1.5; default 0: see "Order". Windows are faster with 2^(1/4).
     pub quotient: f64,
     /// Of a progressive order: the radius of the coarsest level, at least `radius`. Default 0: the
     /// first level has one sample. Scattered windows of large domains are faster with 16 radii.
     pub coarsest: f64,
-    /// See "Given samples" in azulejo.h; none with a `count`.
+    /// Default NULL: see "Given samples"; none with a `count`.
     pub given_positions: *const f32,
     /// The clearance of each; default NULL.
     pub given_clearances: *const f64,

@@ -132,9 +132,9 @@ pub struct azulejo_psp_options {
     /// The exact number of samples; default 0: as many as the radius gives. As in progressive order
     /// there are no iterations. Must be 0 in azulejo_psp_create.
     pub count: usize,
-    /// See "Order" in azulejo.h; default 0.
+    /// 1.02 to 1.5; default 0: see "Order" in azulejo.h.
     pub quotient: f64,
-    /// See "Given samples" in azulejo.h.
+    /// Default NULL: see "Given samples" in azulejo.h.
     pub given_positions: *const f32,
     /// The clearance of each; default NULL.
     pub given_clearances: *const f64,

@@ -43,9 +43,9 @@ pub struct azulejo_volume_options {
     pub order: u32,
     /// Always 0.
     pub reserved: u32,
-    /// See "Order" in azulejo.h; default 0.
+    /// 1.02 to 1.5; default 0: see "Order" in azulejo.h.
     pub quotient: f64,
-    /// See "Given samples" in azulejo.h.
+    /// Default NULL: see "Given samples" in azulejo.h.
     pub given_positions: *const f32,
     /// The clearance of each; default NULL.
     pub given_clearances: *const f64,
