@@ -94,7 +94,7 @@ source_with_crates() {
 debs() {
     apt-get update -qq
     # Without those of debugging information, which the library does not need.
-    apt-get install -qq --no-install-recommends -o Acquire::Retries=3 "$(file 'libazulejo[0-9]*[0-9]_*.deb')" \
+    apt-get install -qq --no-install-recommends -o Acquire::Retries=3 "$(file 'libazulejo[0-9]*[0-9]_[0-9]*.deb')" \
         "$(file 'libazulejo-dev_*.deb')" >/dev/null
     c_library ""
 }
