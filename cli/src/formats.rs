@@ -2,9 +2,9 @@
 //!
 //! | format | plane, cuboid | surface | domain |
 //! |---|---|---|---|
-//! | PLY | `x y z`, in the plane z being 0, and perhaps `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
-//! | NPY | array of `(n, 2)` or `(n, 3)` floats; structured array of `x y`, in a cuboid `z`, and `rank` or `class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
-//! | CSV | columns `x,y`, in a cuboid `z`, and perhaps `rank`, `class` under a header | all columns of PLY under a header | - |
+//! | PLY | `x y z`, in the plane z being 0, and perhaps `radius`, `rank`, `class` | `x y z nx ny nz triangle u v` and perhaps `radius`, `rank`, `class` | in a comment |
+//! | NPY | array of `(n, 2)` or `(n, 3)` floats; structured array of `x y`, in a cuboid `z`, and `radius`, `rank` or `class` | structured array of `position normal triangle barycentrics` and perhaps `radius`, `rank`, `class` | - |
+//! | CSV | columns `x,y`, in a cuboid `z`, and perhaps `radius`, `rank`, `class` under a header | all columns of PLY under a header | - |
 //! | XYZ | lines `x y 0` or `x y z` | lines `x y z nx ny nz` | - |
 //! | raw | `x y` or `x y z` as little-endian floats | - | - |
 //! | USD | points or instances in space | the same with normals | - |
@@ -40,6 +40,7 @@ use crate::input;
 use crate::output::{Output, Writing};
 use crate::ply;
 use columns::write_floats;
+use npy::Grid;
 use points::PointTable;
 use records::Records;
 use scene::Scene;
@@ -148,14 +149,19 @@ fn format_error(path: &Path, reason: impl Into<String>) -> Error {
     Error::Format { path: path.into(), reason: reason.into() }
 }
 
-/// An error about points, with the file that they come from.
+/// An error about points or radii, with the file that they come from.
 pub fn blame(path: &Path, error: Error) -> Error {
     match error {
         Error::InvalidArgument { argument: "positions" | "normals", reason } => format_error(path, reason),
         Error::InvalidArgument {
-            argument: argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances" | "classes"),
+            argument:
+                argument @ ("triangles" | "barycentrics" | "given_positions" | "given_clearances" | "classes"
+                | "grid_values" | "grid_size"),
             reason,
-        } => format_error(path, format!("{argument}: {reason}")),
+        }
+        | Error::TooLarge { argument: argument @ "grid_values", reason } => {
+            format_error(path, format!("{argument}: {reason}"))
+        }
         other => other,
     }
 }
@@ -253,6 +259,11 @@ impl Input {
 pub fn read_given(path: &Path, origin: [f64; 3]) -> Result<SampleSet> {
     let dimensions = (Format::of(path)? == Format::Raw).then_some(3);
     Input { input_format: None, dimensions }.read_samples(path, origin)
+}
+
+/// Reads radii on a grid: an array of NumPy, whatever its name.
+pub fn read_grid(path: &Path) -> Result<Grid> {
+    npy::parse_grid(&input::bytes(path)?).map_err(|reason| format_error(path, reason))
 }
 
 /// Points of a file, some of which are to be written as they stand in it.

@@ -74,6 +74,14 @@ pub fn of_radius(radius: f64) -> Report {
     Report::default().fact("radius", radius, format!("radius {}", rounded(radius, 4)))
 }
 
+/// Radii that differ from sample to sample.
+pub fn of_radii(radii: &[f64]) -> Report {
+    let end = |choose: fn(f64, f64) -> f64| radii.iter().copied().reduce(choose).unwrap_or(f64::NAN);
+    let ends = [end(f64::min), end(f64::max)];
+    let [least, largest] = ends.map(|radius| rounded(radius, 4));
+    Report::default().fact("radii", ends.to_vec(), format!("radii {least} to {largest}"))
+}
+
 /// The covering radius, in words where it is more than the radius.
 pub fn covered(radius: f64, covering_radius: f64) -> Report {
     let text = if covering_radius > radius {

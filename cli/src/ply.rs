@@ -1,4 +1,4 @@
-//! PLY files: sets of the plane (`x y z`, where z is 0) and of a cuboid (`x y z`), samples of a surface (`x y z nx ny nz triangle u v`, and `radius`
+//! PLY files: sets of the plane (`x y z`, where z is 0) and of a cuboid (`x y z`, and `radius` where radii differ), samples of a surface (`x y z nx ny nz triangle u v`, and `radius`
 //! where radii differ), both with `rank` in progressive order and `class` where there are several; meshes.
 //!
 //! A set of the plane names its domain in a comment, `domain <x0> <y0> <x1> <y1> periodic|bounded`, one of a cuboid as

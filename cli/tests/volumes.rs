@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use azulejo::dcr::volume;
 use azulejo::mesh::Mesh;
-use azulejo::volume::{InsideOptions, Options, Surface, sample, sample_inside};
+use azulejo::volume::{InsideOptions, Options, Surface, adaptive, sample, sample_inside};
 use azulejo::{Boundary, Context, Domain, Given, Order};
 use common::Workshop;
 use ply::floats;
@@ -218,6 +218,101 @@ fn volume_fills_the_inside_of_a_mesh() {
     }
     workshop.succeed(&["volume", "--inside", "solid.obj", "--count", "70", "--order", "progressive", "-o", "a.ply"]);
     assert_eq!(rows(&workshop, "a.ply", 4).1.len(), 70);
+}
+
+/// An array of NumPy of the axes z, y and x.
+fn grid([x, y, z]: [usize; 3], values: &[f32]) -> Vec<u8> {
+    let header =
+        format!("{:<117}\n", format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({z}, {y}, {x}), }}"));
+    let values: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    [b"\x93NUMPY\x01\x00\x76\x00", header.as_bytes(), &values].concat()
+}
+
+#[test]
+fn volume_has_radii_on_a_grid() {
+    let workshop = Workshop::new();
+    workshop.write("solid.obj", format!("{SOLID}f 2 3 4\n"));
+    let (values, size) = ([0.15f32, 0.3, 0.25, 0.2], [2, 1, 2]);
+    workshop.write("radii.npy", grid(size, &values));
+    let (context, radius) = (Context::new(1).unwrap(), adaptive::Radius::Grid { values: &values, size });
+    let domain = Domain { min: [0.0; 3], max: [2.0, 1.0, 1.0], boundary: Boundary::Bounded };
+    let options = adaptive::Options::new(radius).domain(domain).seed(3);
+    let (cuboid, _) = adaptive::sample(&context, &options, None).unwrap();
+    let options = adaptive::InsideOptions::new(radius).tolerance(0.25).seed(3);
+    let mesh = Arc::new(Mesh::load(workshop.path("solid.obj")).unwrap());
+    let (inside, _) = adaptive::sample_inside(&context, &mesh, &options, None).unwrap();
+    for (arguments, expected, domain) in [
+        (&["--box", "0", "0", "0", "2", "1", "1", "--bounded"][..], cuboid, "0 0 0 2 1 1 bounded"),
+        (&["--inside", "solid.obj", "--tolerance", "0.25"], inside, "0 0 0 2 2 2 bounded"),
+    ] {
+        let made = |name: &str| {
+            let all = ["volume", "--radius-from", "radii.npy", "--seed", "3", "-o", name];
+            workshop.succeed(&[&all[..], arguments].concat())
+        };
+        let said = made("a.ply");
+        let (header, points) = rows(&workshop, "a.ply", 4);
+        assert!(points.len() > 60 && header.contains("property float radius\n"), "{header}");
+        assert!(header.contains(&format!("comment domain {domain}\n")), "{header}");
+        let samples = expected.positions.iter().zip(&expected.radii);
+        assert!(
+            points
+                .iter()
+                .eq(samples.map(|([x, y, z], &radius)| [*x, *y, *z, radius as f32]).collect::<Vec<_>>().iter())
+        );
+        assert!(said.starts_with(&format!("a.ply: {} samples, radii 0.1", points.len())), "{said}");
+        made("a.csv");
+        let csv = fs::read_to_string(workshop.path("a.csv")).unwrap();
+        let row = points[7].iter().map(|x| x.to_string()).collect::<Vec<_>>().join(",");
+        assert!(csv.starts_with("x,y,z,radius\n") && csv.lines().nth(8) == Some(&row), "{csv}");
+        made("a.usda");
+        let scene = fs::read_to_string(workshop.path("a.usda")).unwrap();
+        assert!(scene.contains(&format!("float[] widths = [{}, ", points[0][3])), "{scene}");
+        // As given samples they have these clearances.
+        workshop.succeed(&["volume", "--given", "a.ply", "--radius", "0.4", "-o", "b.ply"]);
+    }
+}
+
+#[test]
+fn volume_refuses_options_of_one_radius_with_a_grid() {
+    let workshop = Workshop::new();
+    workshop.write("solid.obj", format!("{SOLID}f 2 3 4\n"));
+    workshop.write("given.csv", "x,y,z\n0.5,0.5,0.5\n");
+    workshop.write("good.npy", grid([1, 2, 1], &[0.25, 0.5]));
+    workshop.write("bad.npy", grid([1, 2, 1], &[0.25, -1.0]));
+    workshop.write("none.npy", grid([1, 0, 1], &[]));
+    workshop.write("cut.npy", grid([1, 2, 2], &[0.25, 0.5]));
+    workshop.write("small.npy", grid([1, 1, 1], &[1e-9]));
+    workshop.write("many.npy", grid([1, 1, 1], &[1e-5]));
+    for (arguments, text) in [
+        (&["--radius", "0.1"][..], "--radius <R>"),
+        (&["--count", "9"], "--count <N>"),
+        (&["--order", "progressive"], "--order <ORDER>"),
+        (&["--order", "progressive", "--quotient", "1.2"], "--order <ORDER>"),
+        (&["--given", "given.csv"], "--given <FILE>"),
+        (&["--leaf-size", "20"], "--leaf-size <L>"),
+        (&["--inside", "solid.obj", "--surface-first"], "--surface-first"),
+        (&["--inside", "solid.obj", "--thickness", "0.3"], "--thickness <D>"),
+    ] {
+        let said = workshop.refuse(&[&["volume", "--radius-from", "good.npy", "-o", "a.ply"], arguments].concat(), 2);
+        let first = said.lines().next().unwrap();
+        assert!(first.contains("--radius-from <FILE>") && said.contains(text), "{arguments:?}: {said}");
+    }
+    workshop.write("flat.obj", "v 0 0 0\nv 2 0 0\nv 0 2 1\nf 1 2 3\n");
+    for (arguments, text) in [
+        (&["bad.npy"][..], "error: bad.npy: grid_values: [1] is -1.0, not a positive finite number"),
+        (&["none.npy"], "error: none.npy: grid_size: [1, 0, 1] is not the size of a grid"),
+        (&["cut.npy"], "error: cut.npy: the header announces the shape [2,2,1], but only 8 bytes follow"),
+        (&["small.npy"], "error: small.npy: grid_values: "),
+        (&["many.npy"], "error: many.npy: grid_values: asks for more samples"),
+        (&["given.csv"], "error: given.csv: is no array of NumPy"),
+        (&["missing.npy"], "error: missing.npy: "),
+        (&["good.npy", "--box", "0", "0", "2", "1", "1", "1"], "error: domain_max"),
+        (&["good.npy", "--inside", "flat.obj"], "error: flat.obj: encloses nothing"),
+        (&["good.npy", "--inside", "solid.obj", "--tolerance", "2"], "error: tolerance: "),
+    ] {
+        let said = workshop.refuse(&[&["volume", "-o", "a.ply", "--radius-from"], arguments].concat(), 1);
+        assert!(said.starts_with(text), "{arguments:?}: {said}");
+    }
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub mod surface;
 mod surface_relaxation;
 #[path = "../../tests/all/common/tolerance.rs"]
 pub mod tolerance;
-mod varying;
+pub mod varying;
 #[path = "../../tests/all/common/volume_oracle.rs"]
 pub mod volume_oracle;
 

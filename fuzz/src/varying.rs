@@ -14,7 +14,7 @@ use crate::input::Input;
 use crate::surface::{Corners, Given};
 
 /// A function of the caller's: one that is as the options say, or not.
-struct Guest {
+pub struct Guest {
     least: f64,
     slope: f64,
     kind: u32,
@@ -22,12 +22,27 @@ struct Guest {
 }
 
 impl Guest {
+    /// A function of some kind, from `least` to twice that.
+    pub fn new(least: f64, slope: f64, input: &mut Input) -> Self {
+        Self { least, slope, kind: input.below(10), calls: Cell::new(0) }
+    }
+
+    /// The slope that is told.
+    pub fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// The value of the option radius_function_user.
+    pub fn user(&self) -> *mut c_void {
+        (&raw const *self).cast_mut().cast()
+    }
+
     /// True if it changes no faster than its slope.
-    fn is_as_told(&self) -> bool {
+    pub fn is_as_told(&self) -> bool {
         self.kind > 4
     }
 
-    fn at(&self, position: [f64; 3]) -> f64 {
+    pub fn at(&self, position: [f64; 3]) -> f64 {
         let ramp = |slope: f64| self.least + (position[0].abs() * slope).min(self.least);
         let noise =
             position.iter().fold(0u64, |bits, x| (bits ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 32;
@@ -43,8 +58,12 @@ impl Guest {
     }
 }
 
-unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
-    // SAFETY: the options below lead here with these two.
+/// The radius function.
+///
+/// # Safety
+/// `user` is that of a living [`Guest`], and `position` leads to three coordinates.
+pub unsafe extern "C-unwind" fn radius_at(user: *mut c_void, position: *const f64) -> f64 {
+    // SAFETY: by the contract.
     unsafe { (*user.cast::<Guest>()).at(*position.cast()) }
 }
 
@@ -59,14 +78,14 @@ pub(crate) fn adaptive(mesh: &Owned<azulejo_mesh>, corners: &Corners, radius: f6
         return; // too many samples
     }
     let slope = f64::from(input.any::<u8>()) / 256.0;
-    let guest = Guest { least: radius, slope, kind: input.below(10), calls: Cell::new(0) };
+    let guest = Guest::new(radius, slope, input);
     let by_vertex = input.one_in(2);
     let options = azulejo_psp_adaptive_options {
         struct_size: size_of::<azulejo_psp_adaptive_options>() as u32,
         vertex_radii: if by_vertex { radii.as_ptr() } else { std::ptr::null() },
         vertex_count: if by_vertex { radii.len() } else { 0 },
         radius_function: (!by_vertex).then_some(radius_at),
-        radius_function_user: (&raw const guest).cast_mut().cast(),
+        radius_function_user: guest.user(),
         smallest: if by_vertex { 0.0 } else { radius },
         largest: if by_vertex { 0.0 } else { 2.0 * radius },
         slope: if by_vertex { 0.0 } else { slope },

@@ -85,7 +85,9 @@ pub struct Grid {
     /// The numbers of each cell along the axes.
     places: Vec<[u16; 3]>,
     /// The number of balls of each cell.
-    filled: Vec<u16>,
+    filled: Vec<u32>,
+    /// The last page of each cell.
+    last: Vec<u32>,
     /// The first page of each cell, and then the others.
     pages: Vec<Page>,
     /// The page of the same cell that follows on each page, or 0.
@@ -134,6 +136,8 @@ impl Grid {
         self.balls.clear();
         self.filled.clear();
         self.filled.resize(cells, 0);
+        self.last.clear();
+        self.last.extend(0..cells as u32);
         self.pages.clear();
         self.pages.resize(cells, Page::EMPTY);
         self.next.clear();
@@ -289,7 +293,8 @@ impl Grid {
     pub fn list(&mut self, cell: usize, [x, y, z]: [f32; 3]) -> (usize, usize) {
         let filled = self.filled[cell] as usize;
         self.filled[cell] += 1;
-        let page = if filled < LANES { cell } else { self.page_after(cell, filled) };
+        let page =
+            if filled > 0 && filled.is_multiple_of(LANES) { self.new_page(cell) } else { self.last[cell] as usize };
         let (Page([xs, ys, zs]), lane) = (&mut self.pages[page], filled % LANES);
         (xs[lane], ys[lane], zs[lane]) = (x, y, z);
         (page, lane)
@@ -317,18 +322,14 @@ impl Grid {
         self.sides
     }
 
-    /// The page for the next ball of a cell whose first page is full.
-    fn page_after(&mut self, cell: usize, filled: usize) -> usize {
-        let mut page = cell;
-        for _ in 1..filled / LANES {
-            page = self.next[page] as usize;
-        }
-        if filled.is_multiple_of(LANES) {
-            self.next[page] = self.pages.len() as u32;
-            self.pages.push(Page::EMPTY);
-            self.next.push(0);
-        }
-        self.next[page] as usize
+    /// A new page, the last one of a cell.
+    fn new_page(&mut self, cell: usize) -> usize {
+        let page = self.pages.len();
+        self.next[self.last[cell] as usize] = page as u32;
+        self.last[cell] = page as u32;
+        self.pages.push(Page::EMPTY);
+        self.next.push(0);
+        page
     }
 
     /// A dart on a place in a voxel, by 63 random bits.
@@ -643,6 +644,21 @@ mod tests {
             let points = cells.map(|cell| (0..3).map(|axis| i64::from(cell.length(axis))).product::<i64>());
             assert_eq!(points.sum::<i64>(), (0..3).map(|axis| i64::from(region.length(axis))).product::<i64>());
         }
+    }
+
+    /// Where radii vary, thousands of small balls reach a cell of a large radius.
+    #[test]
+    fn a_cell_lists_any_number_of_balls() {
+        const BALLS: usize = 70_000;
+        let mut grid = Grid::default();
+        grid.reset(&Rect { min: [0; 3], max: [40; 3] }, 64.0, Separation::new(64.0), &[]);
+        (0..BALLS).for_each(|number| _ = grid.list(0, [number as f32; 3]));
+        let (mut page, mut listed) = (0, Vec::new());
+        while listed.len() < BALLS {
+            listed.extend(grid.page(page)[2]);
+            page = grid.following(page);
+        }
+        assert!(page == 0 && listed.into_iter().eq((0..BALLS).map(|number| number as f32)));
     }
 
     #[test]

@@ -143,7 +143,8 @@ mod tests {
     fn instances_of_each_class_are_arrays_of_one_buffer() {
         let points = [[1.0f32, 2.0], [3.0, 4.0], [5.0, 6.0]];
         let ranks = [f32::INFINITY, 2.0, 1.0];
-        let table = PointTable { points: &points, ranks: &ranks, classes: &[0, 2, 0], class_radii: &[0.5, 1.0, 2.0] };
+        let table =
+            PointTable { ranks: &ranks, classes: &[0, 2, 0], class_radii: &[0.5, 1.0, 2.0], ..PointTable::of(&points) };
         let mut file = Vec::new();
         write(&mut file, &Scene::of_points(&table)).unwrap();
         let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;

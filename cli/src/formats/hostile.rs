@@ -1,4 +1,4 @@
-//! Damaged files of points: valid ones with some bytes changed, cut out or doubled, in every format. Each is read or
+//! Damaged files of points and grids: valid ones with some bytes changed, cut out or doubled, in every format. Each is read or
 //! refused with a message of one line, without a panic, and the numbers of a header are not trusted.
 
 use super::columns::write_floats;
@@ -7,7 +7,7 @@ use super::set::PointSet;
 use super::{npy, raw, table};
 use crate::ply;
 
-type Parse = fn(&[u8]) -> Result<PointSet, String>;
+type Parse = fn(&[u8]) -> Result<(), String>;
 
 /// The undamaged input: every parser, and files that it reads.
 fn good_files() -> Vec<(Parse, Vec<u8>)> {
@@ -18,6 +18,8 @@ fn good_files() -> Vec<(Parse, Vec<u8>)> {
         "[('x', '<f4'), ('y', '<f4'), ('normal', '<f4', (3,)), ('triangle', '<u4'), ('barycentrics', '<f4', (2,))]";
     let header = format!("{:<246}", format!("{{'descr': {fields}, 'fortran_order': False, 'shape': (1,), }}"));
     let structured = [b"\x93NUMPY\x01\x00\xf6\x00", header.as_bytes(), &[0; 32]].concat();
+    let header = format!("{:<118}", "{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3, 1), }");
+    let grid = [b"\x93NUMPY\x01\x00\x76\x00", header.as_bytes(), &[63; 24]].concat();
     let mut floats = Vec::new();
     write_floats(&mut floats, &space).unwrap();
     let text = "# points\nx,y,z,nx,ny,nz\n0.5,-1.25,7,0,0,1\n3,4e-3,1e9,1,0,0\n";
@@ -32,15 +34,29 @@ fn good_files() -> Vec<(Parse, Vec<u8>)> {
     let list = header("ascii", "element face 1\nproperty list uchar int vertex_indices\n");
     let ascii = format!("{list}0.5 2 3 0 0.25 0.5\n1 2 3 1 0.5 0.25\n3 0 1 1\n");
     vec![
-        (npy::parse, array),
-        (npy::parse, structured),
-        (|bytes| raw::parse(bytes, 2), floats.clone()),
-        (|bytes| raw::parse(bytes, 3), floats),
-        (table::parse, text.into()),
-        (table::parse, "0.5 2 3 0 0 1\n1 2 3 1 0 0\n".into()),
-        (ply::parse, binary),
-        (ply::parse, ascii.into()),
+        (|bytes| npy::parse(bytes).map(check_points), array),
+        (|bytes| npy::parse(bytes).map(check_points), structured),
+        (|bytes| npy::parse_grid(bytes).map(check_grid), grid),
+        (|bytes| raw::parse(bytes, 2).map(check_points), floats.clone()),
+        (|bytes| raw::parse(bytes, 3).map(check_points), floats),
+        (|bytes| table::parse(bytes).map(check_points), text.into()),
+        (|bytes| table::parse(bytes).map(check_points), "0.5 2 3 0 0 1\n1 2 3 1 0 0\n".into()),
+        (|bytes| ply::parse(bytes).map(check_points), binary),
+        (|bytes| ply::parse(bytes).map(check_points), ascii.into()),
     ]
+}
+
+fn check_points(set: PointSet) {
+    let Ok(samples) = set.into_samples([0.0; 3]) else { return };
+    assert!(samples.positions.iter().chain(&samples.normals).flatten().all(|x| x.is_finite()));
+    assert!(samples.normals.is_empty() || samples.normals.len() == samples.positions.len());
+    let lengths = samples.on_mesh.map(|(triangles, sides)| [triangles.len(), sides.len()]);
+    assert!(lengths.is_none_or(|lengths| lengths == [samples.positions.len(); 2]));
+}
+
+fn check_grid(grid: npy::Grid) {
+    let [x, y, z] = grid.size;
+    assert_eq!(grid.values.len(), z * y * x);
 }
 
 /// Random numbers (Marsaglia's xorshift).
@@ -79,21 +95,11 @@ fn damage(file: &mut Vec<u8>, numbers: &mut Numbers) {
     }
 }
 
-fn check(parsed: Result<PointSet, String>) -> bool {
-    match parsed {
-        Ok(set) => {
-            let Ok(samples) = set.into_samples([0.0; 3]) else { return true };
-            assert!(samples.positions.iter().chain(&samples.normals).flatten().all(|x| x.is_finite()));
-            assert!(samples.normals.is_empty() || samples.normals.len() == samples.positions.len());
-            let lengths = samples.on_mesh.map(|(triangles, sides)| [triangles.len(), sides.len()]);
-            assert!(lengths.is_none_or(|lengths| lengths == [samples.positions.len(); 2]));
-            true
-        }
-        Err(reason) => {
-            assert!(!reason.is_empty() && reason.len() < 1000 && !reason.contains('\n'), "{reason}");
-            false
-        }
+fn check(parsed: Result<(), String>) -> bool {
+    if let Err(reason) = &parsed {
+        assert!(!reason.is_empty() && reason.len() < 1000 && !reason.contains('\n'), "{reason}");
     }
+    parsed.is_ok()
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! Arrays of NumPy. Sets of the plane are arrays of two floats to a row, those of a cuboid of three. Samples of a surface are structured arrays,
 //! with the fields `position` (3 floats), `normal` (3), `triangle` (an unsigned integer), `barycentrics` (2), `radius`
 //! where radii differ, `rank` in progressive order, and `class` where there are several. Sets of the plane or of a cuboid in
-//! progressive order or of several classes are structured arrays of `x`, `y`, in a cuboid `z`, and `rank` or `class`.
+//! progressive order, of several classes or with radii that differ are structured arrays of `x`, `y`, in a cuboid `z`, and
+//! `radius`, `rank` or `class`. Radii on a grid are arrays of three axes: z, y and x.
 //!
 //! Input may have floats and integers of any size and byte order: arrays of at least two columns, in C or Fortran
 //! order, of which 2, 3 or 6 are x, y, z, nx, ny and nz, and otherwise the first three; and structured arrays with the
@@ -49,6 +50,37 @@ pub fn parse(bytes: &[u8]) -> Result<PointSet, String> {
     Ok(points)
 }
 
+/// Values on a grid, as `volume::adaptive` takes them.
+pub struct Grid {
+    /// x is the fastest, then y.
+    pub values: Vec<f32>,
+    /// Their number along x, y and z.
+    pub size: [usize; 3],
+}
+
+/// An array of the axes z, y and x, of numbers of any type.
+pub fn parse_grid(bytes: &[u8]) -> Result<Grid, String> {
+    let (header, body) = split(bytes).ok_or("is no array of NumPy, or cut off in its header")?;
+    let Header { descr, shape, lengths, is_by_columns } = Header::of(header)?;
+    let (Value::String(code), Some(&[z, y, x])) = (&descr, lengths.as_deref()) else {
+        let (shape, descr) = (shortened(&shape.to_string()), shortened(&descr.to_string()));
+        return Err(format!("has the shape {shape} and the type {descr}, not (z, y, x) and numbers"));
+    };
+    let number = Number::of(code)?;
+    let count = [z, y, x].iter().try_fold(1usize, |count, &along| count.checked_mul(along));
+    let Some(count) = count.filter(|count| count.checked_mul(number.size).is_some_and(|size| size <= body.len()))
+    else {
+        let shape = shortened(&shape.to_string());
+        return Err(format!("the header announces the shape {shape}, but only {} bytes follow", body.len()));
+    };
+    let place = |index: usize| match is_by_columns {
+        true => (index / x % y + index % x * y) * z + index / x / y,
+        false => index,
+    };
+    let value = |index: usize| number.read(&body[place(index) * number.size..]) as f32;
+    Ok(Grid { values: (0..count).map(value).collect(), size: [x, y, z] })
+}
+
 /// Header and body. The length of the header has two bytes in version 1 and four later.
 fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     let (&[version, _], rest) = bytes.strip_prefix(MAGIC)?.split_first_chunk::<2>()?;
@@ -81,6 +113,26 @@ fn dictionary(header: &str) -> Result<Value, String> {
     serde_json::from_str(&json).map_err(|_| "has a header that is no dictionary of Python".to_owned())
 }
 
+/// The entries of a header.
+struct Header {
+    descr: Value,
+    shape: Value,
+    /// The shape, if it is a tuple of lengths.
+    lengths: Option<Vec<usize>>,
+    is_by_columns: bool,
+}
+
+impl Header {
+    fn of(header: &str) -> Result<Self, String> {
+        let header = dictionary(header)?;
+        let entry = |key: &str| header.get(key).ok_or_else(|| format!("the header has no {key}"));
+        let (descr, shape) = (entry("descr")?.clone(), entry("shape")?.clone());
+        let is_by_columns = entry("fortran_order")?.as_bool() == Some(true);
+        let lengths = shape.as_array().and_then(|lengths| lengths.iter().map(length).collect());
+        Ok(Self { descr, shape, lengths, is_by_columns })
+    }
+}
+
 /// The layout of the numbers in the body.
 struct Array {
     count: usize,
@@ -98,12 +150,8 @@ struct Column {
 
 impl Array {
     fn of(header: &str) -> Result<Self, String> {
-        let header = dictionary(header)?;
-        let entry = |key: &str| header.get(key).ok_or_else(|| format!("the header has no {key}"));
-        let (descr, shape) = (entry("descr")?, entry("shape")?);
-        let is_by_columns = entry("fortran_order")?.as_bool() == Some(true);
-        let lengths = shape.as_array().map(|lengths| lengths.iter().map(length).collect::<Option<Vec<_>>>());
-        match (descr, lengths.flatten().as_deref()) {
+        let Header { descr, shape, lengths, is_by_columns } = Header::of(header)?;
+        match (&descr, lengths.as_deref()) {
             (Value::Array(fields), Some(&[count])) => Self::of_fields(fields, count),
             (Value::String(code), Some(&[count, width])) => {
                 Self::of_numbers(Number::of(code)?, count, width, is_by_columns)

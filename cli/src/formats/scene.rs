@@ -39,7 +39,7 @@ impl<'a> Scene<'a> {
             triangles: &[],
             barycentrics: &[],
             class_radii: table.class_radii,
-            radii: &[],
+            radii: table.radii,
         }
     }
 

@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn points_have_widths_ids_and_primvars() {
         let points = [[0.0, 1.0], [2.5, 1e-9]];
-        let table = PointTable { points: &points, ranks: &[f32::INFINITY, 0.5], classes: &[], class_radii: &[0.25] };
+        let table = PointTable { ranks: &[f32::INFINITY, 0.5], class_radii: &[0.25], ..PointTable::of(&points) };
         let text = text(write_points, &table);
         for line in [
             "    int64[] ids = [0, 1]",
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn classes_are_prototypes() {
         let points = [[0.0; 2]; 3];
-        let table = PointTable { points: &points, ranks: &[], classes: &[0, 2, 0], class_radii: &[0.5, 1.0, 2.0] };
+        let table = PointTable { classes: &[0, 2, 0], class_radii: &[0.5, 1.0, 2.0], ..PointTable::of(&points) };
         let text = text(write_instances, &table);
         for line in [
             "    int[] protoIndices = [0, 2, 0]",

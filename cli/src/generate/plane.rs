@@ -184,7 +184,12 @@ impl Plane {
         };
         let seconds = start.elapsed().as_secs_f64();
         let own: Vec<_> = (0..classes.count()).map(|class| classes.radius(class, class)).collect();
-        let table = PointTable { points: &set.positions, ranks: &set.ranks, classes: &set.classes, class_radii: &own };
+        let table = PointTable {
+            ranks: &set.ranks,
+            classes: &set.classes,
+            class_radii: &own,
+            ..PointTable::of(&set.positions)
+        };
         output.write_points(&domain, &table)?;
         report(&output.output, set.len(), shares(classes, &set), seconds);
         Ok(())

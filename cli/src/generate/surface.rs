@@ -12,7 +12,7 @@ use serde_json::json;
 
 use super::around::Around;
 use super::attributes::{MeshFile, mask_of_text};
-use super::{Common, Sequence, count, covered, of_radius, report};
+use super::{Common, Sequence, count, covered, of_radii, of_radius, report};
 use crate::formats::surface::SurfaceTable;
 use crate::formats::{blame, read_given};
 use crate::output::Report;
@@ -353,10 +353,7 @@ impl Surface {
         let sample = |progress: &Progress| adaptive::sample(context, mesh, &options, Some(progress));
         let made = watched("surface", sample);
         let (mut made, done) = made.map_err(|error| blame_attribute(file, Some(attribute), error))?;
-        let ends = |choose: fn(f64, f64) -> f64| made.radii.iter().copied().reduce(choose).unwrap_or(f64::NAN);
-        let ends = [ends(f64::min), ends(f64::max)];
-        let [least, largest] = ends.map(|radius| rounded(radius, 4));
-        let about = Report::default().fact("radii", ends.to_vec(), format!("radii {least} to {largest}"));
+        let about = of_radii(&made.radii);
         let about = match (scale, done.radius) {
             (Some(_), radius) if radius > 0.0 => {
                 about.fact("radius_at_density_1", radius, format!("{} at density 1", rounded(radius, 4)))

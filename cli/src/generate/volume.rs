@@ -1,23 +1,25 @@
-//! `azulejo volume`: maximal Poisson-disk sets of a cuboid, or of the inside of a mesh.
+//! `azulejo volume`: maximal Poisson-disk sets of a cuboid, or of the inside of a mesh, of one radius or of radii on a grid.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use azulejo::mesh::Mesh;
+use azulejo::volume::adaptive::{self, Radius};
 use azulejo::volume::{Amount, InsideOptions, Options, Surface, sample, sample_inside};
-use azulejo::{Boundary, Context, Domain, Error, Points, Result};
+use azulejo::{Boundary, Context, Domain, Error, Points, Progress, Result};
 use clap::Args;
 
 use super::around::Around;
-use super::{Common, Sequence, count, covered, of_radius, report};
+use super::{Common, Sequence, count, covered, of_radii, of_radius, report};
 use crate::domain::CuboidArgs;
 use crate::formats::points::PointTable;
-use crate::formats::{blame, read_given};
+use crate::formats::{blame, read_given, read_grid};
 use crate::input;
 use crate::output::Report;
 use crate::progress::watched;
 use crate::text::rounded;
 
-/// The density of a set of a cuboid.
+/// The density of a set of a volume.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Density {
@@ -27,7 +29,15 @@ struct Density {
     /// The exact number of samples, such as 65536 or 1e6: the radius is found.
     #[arg(long, value_name = "N", value_parser = count::<usize>)]
     count: Option<usize>,
+    /// An array of NumPy, .npy, of shape (z, y, x): radii above 0 on a grid over the cuboid, or over the box around the mesh, linear
+    /// between them along each axis. The first and the last along an axis lie on the faces. The distance of two samples is
+    /// at least the mean of their radii. The output has the radius of each sample, except in XYZ and raw floats.
+    #[arg(long, value_name = "FILE", conflicts_with_all = OF_ONE_RADIUS)]
+    radius_from: Option<PathBuf>,
 }
+
+/// The arguments that adaptive sampling refuses.
+const OF_ONE_RADIUS: [&str; 7] = ["order", "quotient", "given", "clearance", "leaf_size", "surface_first", "thickness"];
 
 #[derive(Args)]
 pub struct Volume {
@@ -78,8 +88,8 @@ pub struct Volume {
 struct Made {
     samples: Points<3>,
     domain: Domain<3>,
-    /// The radius and the covering radius.
-    radii: [f64; 2],
+    /// The radius of all samples, unless they have radii of their own.
+    radius: Option<f64>,
     about: Report,
     seconds: f64,
 }
@@ -88,18 +98,23 @@ impl Volume {
     pub fn run(&self, context: &Context) -> Result<()> {
         let output = self.common.destination.open_points()?;
         let around = self.around()?;
-        let made = match &self.inside {
-            Some(path) => self.inside(context, path, &around),
-            None => self.cuboid(context, &around),
+        let made = match (&self.density.radius_from, &self.inside) {
+            (Some(grid), _) => self.adaptive(context, grid),
+            (None, Some(path)) => self.inside(context, path, &around),
+            (None, None) => self.cuboid(context, &around),
         };
-        let Made { samples, domain, radii: [radius, covering_radius], about, seconds } =
-            made.map_err(|error| match &self.given {
+        let Made { samples, domain, radius, about, seconds } =
+            made.map_err(|error| match self.given.as_ref().or(self.density.radius_from.as_ref()) {
                 Some(path) => blame(path, error),
                 None => error,
             })?;
-        let table = PointTable { ranks: &samples.ranks, class_radii: &[radius], ..PointTable::of(&samples.positions) };
+        let table = PointTable {
+            radii: &samples.radii,
+            ranks: &samples.ranks,
+            class_radii: radius.as_slice(),
+            ..PointTable::of(&samples.positions)
+        };
         output.write_points(&domain, &table)?;
-        let about = of_radius(radius).and(covered(radius, covering_radius)).and(about);
         report(&output.output, samples.len(), about, seconds);
         Ok(())
     }
@@ -121,8 +136,8 @@ impl Volume {
             .given(around.given())
             .leaf_size(self.leaf_size);
         let (samples, done) = watched("volume", |progress| sample(context, &options, Some(progress)))?;
-        let (radii, about) = ([done.radius, done.covering_radius], Report::default());
-        Ok(Made { samples, domain, radii, about, seconds: done.seconds })
+        let about = of_radius(done.radius).and(covered(done.radius, done.covering_radius));
+        Ok(Made { samples, domain, radius: Some(done.radius), about, seconds: done.seconds })
     }
 
     fn inside(&self, context: &Context, path: &Path, around: &Around<3>) -> Result<Made> {
@@ -137,21 +152,40 @@ impl Volume {
             .quotient(self.quotient.unwrap_or(options.quotient))
             .given(around.given());
         let made = watched("volume", |progress| sample_inside(context, &mesh, &options, Some(progress)));
-        let (samples, done) = made.map_err(|error| match error {
-            Error::InvalidArgument { argument: "mesh", reason } => Error::Format { path: path.to_owned(), reason },
-            other => other,
-        })?;
-        let (low, high) = mesh.bounds();
-        let [min, max] = [low, high].map(|corner| corner.map(f64::from));
-        let domain = Domain { min, max, boundary: Boundary::Bounded };
+        let (samples, done) = made.map_err(|error| blame_mesh(path, error))?;
         let surface = match done.surface_samples {
             0 => String::new(),
             count => format!("{count} on the surface"),
         };
-        let about = Report::default().fact("surface_samples", done.surface_samples, surface);
+        let about = of_radius(done.radius).and(covered(done.radius, done.covering_radius));
+        let about = about.fact("surface_samples", done.surface_samples, surface);
         let about = about.fact("depth", done.depth, format!("open up to {} below the surface", rounded(done.depth, 4)));
-        let radii = [done.radius, done.covering_radius];
-        Ok(Made { samples, domain, radii, about, seconds: done.seconds })
+        Ok(Made { samples, domain: box_around(&mesh), radius: Some(done.radius), about, seconds: done.seconds })
+    }
+
+    /// A set of radii on a grid, of the cuboid or of the inside of the mesh.
+    fn adaptive(&self, context: &Context, grid: &Path) -> Result<Made> {
+        let grid = read_grid(grid)?;
+        let (radius, seed) = (Radius::Grid { values: &grid.values, size: grid.size }, self.common.seed);
+        let (samples, done, domain) = match &self.inside {
+            None => {
+                let domain = self.domain.or_unit();
+                let options = adaptive::Options::new(radius).domain(domain).seed(seed);
+                let sample = |progress: &Progress| adaptive::sample(context, &options, Some(progress));
+                let (samples, done) = watched("volume", sample)?;
+                (samples, done, domain)
+            }
+            Some(path) => {
+                let mesh = Arc::new(input::mesh_at_origin(path)?);
+                let options = adaptive::InsideOptions::new(radius).seed(seed);
+                let options = options.tolerance(self.tolerance.unwrap_or(options.tolerance));
+                let sample = |progress: &Progress| adaptive::sample_inside(context, &mesh, &options, Some(progress));
+                let (samples, done) = watched("volume", sample).map_err(|error| blame_mesh(path, error))?;
+                (samples, done, box_around(&mesh))
+            }
+        };
+        let about = of_radii(&samples.radii);
+        Ok(Made { samples, domain, radius: None, about, seconds: done.seconds })
     }
 
     /// The given points.
@@ -159,5 +193,20 @@ impl Volume {
         let Some(path) = &self.given else { return Ok(Around::default()) };
         let given = read_given(path, [0.0; 3])?;
         Ok(Around::new(given.positions, given.clearances, self.clearance))
+    }
+}
+
+/// The box around a mesh.
+fn box_around(mesh: &Mesh) -> Domain<3> {
+    let (low, high) = mesh.bounds();
+    let [min, max] = [low, high].map(|corner| corner.map(f64::from));
+    Domain { min, max, boundary: Boundary::Bounded }
+}
+
+/// An error about a mesh, with its file.
+fn blame_mesh(path: &Path, error: Error) -> Error {
+    match error {
+        Error::InvalidArgument { argument: "mesh", reason } => Error::Format { path: path.to_owned(), reason },
+        other => other,
     }
 }

@@ -22,7 +22,12 @@ impl Ground<'_> {
     /// The unit of the grid of a region with these bounds of the radius. Voxels at a surface are as small as the least one
     /// requires.
     pub fn unit(&self, [least, most]: [f64; 2]) -> f64 {
-        if self.solid.is_some() { least } else { (0.5 * (least + most)).min(LONGEST_UNIT * least) }
+        if self.solid.is_some() {
+            // The solid is in units of the radius of a lattice, which has a limit.
+            self.lattice.with_radius(least * self.lattice.unit()).radius
+        } else {
+            (0.5 * (least + most)).min(LONGEST_UNIT * least)
+        }
     }
 
     /// The new samples of a fill, in the part of its region that belongs to the ground, by instructions of some level.

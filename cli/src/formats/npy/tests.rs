@@ -41,6 +41,9 @@ fn every_type_and_order_gives_the_same_points() {
     let mut ranked = Vec::new();
     write_points(&mut ranked, &PointTable { ranks: &[1.5, 0.25], ..PointTable::of(&expected) }).unwrap();
     assert!(points(&ranked) == expected && ranked.ends_with(&0.25f32.to_le_bytes()));
+    let mut varying = Vec::new();
+    write_points(&mut varying, &PointTable { radii: &[0.5, 0.125], ..PointTable::of(&expected) }).unwrap();
+    assert!(points(&varying) == expected && varying.ends_with(&0.125f32.to_le_bytes()));
     // The header of these bytes is what numpy.save writes.
     let start = b"\x93NUMPY\x01\x00v\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), }  ";
     assert!(written.starts_with(start) && written[..128].ends_with(b" \n") && written.len() == 128 + 16);
@@ -100,4 +103,38 @@ fn what_is_no_array_of_points_is_refused_with_the_reason() {
     }
     let infinite = file(&dictionary("<f8", "False", "(1, 2)"), &[1.0f64, 1e300].map(f64::to_le_bytes).concat());
     assert_eq!(refused(&infinite), "row 0: y is inf, not finite");
+}
+
+#[test]
+fn a_grid_has_its_values_in_one_order_whatever_that_of_the_file() {
+    // Two layers of one row of three values.
+    let rows = [0.5f32, 1.0, 1.5, 2.0, 2.5, 3.0];
+    let columns = [0.5f32, 2.0, 1.0, 2.5, 1.5, 3.0];
+    for (element, fortran, body) in [
+        ("<f4", "False", rows.map(f32::to_le_bytes).concat()),
+        (">f4", "True", columns.map(f32::to_be_bytes).concat()),
+        ("<f8", "True", columns.map(|x| f64::from(x).to_le_bytes()).concat()),
+    ] {
+        let grid = parse_grid(&file(&dictionary(element, fortran, "(2, 1, 3)"), &body)).unwrap();
+        assert_eq!((&grid.values[..], grid.size), (&rows[..], [3, 1, 2]), "{element}");
+    }
+    let whole = parse_grid(&file(&dictionary("|u1", "False", "(1, 2, 1)"), &[7, 9])).unwrap();
+    assert_eq!((whole.values, whole.size), (vec![7.0, 9.0], [1, 2, 1]));
+}
+
+#[test]
+fn what_is_no_grid_is_refused() {
+    let floats = |shape: &str| file(&dictionary("<f4", "False", shape), &[0; 24]);
+    for (bytes, said) in [
+        (floats("(6,)"), "has the shape [6] and the type \"<f4\", not (z, y, x) and numbers"),
+        (floats("(1, 2, 3, 1)"), "has the shape [1,2,3,1]"),
+        (floats("(1, -2, 3)"), "has the shape [1,-2,3]"),
+        (floats("(2, 2, 3)"), "the header announces the shape [2,2,3], but only 24 bytes follow"),
+        (floats("(4294967296, 4294967296, 1)"), "the header announces the shape"),
+        (file(&dictionary("<c8", "False", "(1, 1, 3)"), &[0; 24]), "has numbers of the type \"<c8\""),
+        (b"x,y\n1,2\n".to_vec(), "is no array of NumPy"),
+    ] {
+        let reason = parse_grid(&bytes).err().unwrap();
+        assert!(reason.starts_with(said), "{reason}");
+    }
 }
