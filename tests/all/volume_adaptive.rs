@@ -271,6 +271,28 @@ fn the_inside_of_a_mesh_is_covered() {
 }
 
 /// The argument that an error names, and its reason.
+/// One sample covers the mesh: its radius is more lattice units than a lattice takes.
+#[test]
+fn samples_of_radii_beyond_the_mesh_are_inside() {
+    let octahedron = || {
+        let positions =
+            [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+        let triangles = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+        Arc::new(Mesh::new(positions.to_vec(), triangles.to_vec()).unwrap())
+    };
+    let (mesh, context) = (octahedron(), Context::new(1).unwrap());
+    let interior = Interior::of(&mesh);
+    for radius in [1.0, 6.46, 20.0, 1000.0] {
+        for seed in 0..40 {
+            let values = [radius];
+            let options = InsideOptions::new(Radius::Grid { values: &values, size: [1; 3] }).seed(seed);
+            let points = sample_inside(&context, &mesh, &options, None).unwrap().0;
+            assert!(points.len() == 1 || radius < 2.0, "{radius}: {} samples", points.len());
+            assert!(points.positions.iter().all(|&position| interior.contains(position)), "{radius}, seed {seed}");
+        }
+    }
+}
+
 fn refused(domain: Domain<3>, radius: Radius) -> (&'static str, String) {
     let options = Options::new(radius).domain(domain);
     let one = sample(&Context::new(1).unwrap(), &options, None).unwrap_err();
