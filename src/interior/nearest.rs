@@ -2,8 +2,13 @@
 
 use glam::DVec3;
 
-use crate::interior::tree::{Tree, hull};
+use crate::interior::tree::Tree;
 use crate::math::square;
+
+/// The share of squared distances, and of the square of a triangle's longest edge, by which bounds of distances are too small: distances
+/// are right to 1e-7 of the size of triangles.
+const SLACK: f64 = 1e-6;
+const JUNG_SLACK: f64 = 0.006;
 
 impl Tree {
     /// The place of the triangles that is nearest to another place, and the square of its distance, if that is less than that of
@@ -37,13 +42,15 @@ impl Tree {
     /// nearest, or the first one found whose square is at most that of `near`.
     ///
     /// The square is, to the bit, that of a search in all triangles: each place is moved into the box around its triangle, so that
-    /// it is no nearer, in `f64`, than the boxes by which the tree leaves triangles out.
+    /// it is no nearer, in `f64`, than the boxes by which the tree leaves triangles out, and its square is at least the bound by which
+    /// the corners do.
     pub fn nearest_in_band(&self, place: [f64; 3], [near, far]: [f64; 2]) -> Option<([f64; 3], f64)> {
         let enough = if near < 0.0 { -1.0 } else { square(near) };
         let (mut least, mut found) = (square(far), None);
         self.for_each_nearest(place, least, |triangle| {
-            let (foot, squared) = boxed_foot(place, &self.corners[triangle]);
-            if squared <= least {
+            if let Some((foot, squared)) = boxed_foot(place, &self.corners[triangle], least)
+                && squared <= least
+            {
                 (least, found) = (squared, Some((foot, squared)));
             }
             // Below any square: no box is visited any more.
@@ -53,12 +60,33 @@ impl Tree {
     }
 }
 
-/// The place of a triangle that is nearest to another, moved into the box around the triangle, and the square of its distance.
-fn boxed_foot(place: [f64; 3], corners: &[[f32; 3]; 3]) -> ([f64; 3], f64) {
-    let vector = |corner: [f32; 3]| DVec3::from_array(corner.map(f64::from));
-    let [low, high] = hull(corners).map(vector);
-    let foot = foot(place.into(), corners.map(vector)).clamp(low, high);
-    (foot.to_array(), foot.distance_squared(place.into()))
+/// The place of a triangle that is nearest to another, moved into the box around the triangle, and the square of its distance, or its
+/// lower bound by the corners if that is more. None if the bound is more than `within`.
+fn boxed_foot(place: [f64; 3], &[a, b, c]: &[[f32; 3]; 3], within: f64) -> Option<([f64; 3], f64)> {
+    let (place, [a, b, c]) = (DVec3::from_array(place), [vector(a), vector(b), vector(c)]);
+    let bound = least_by_corners(place, [a, b, c]);
+    if bound > within {
+        return None;
+    }
+    let foot = foot(place, [a, b, c]).clamp(a.min(b).min(c), a.max(b).max(c));
+    Some((foot.to_array(), foot.distance_squared(place).max(bound)))
+}
+
+/// A lower bound of the squared distance of a place x from a triangle: that from its nearest corner, less the square of the radius R of
+/// the least circle around it. For |x - y|² is at least |x - m|² - 2 (x - m)·(y - m) for the circle's centre m, which is linear in y
+/// and so least at a corner v, where it is |x - v|² - |v - m|². By Jung's theorem R² is at most a third of the square of the
+/// longest edge. From afar, where boxes of triangles that are tilted leave in all within some sizes of the foot, this leaves in a few.
+#[inline(always)]
+fn least_by_corners(place: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
+    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+    let nearest = place.distance_squared(a).min(place.distance_squared(b)).min(place.distance_squared(c));
+    // Less than both by more than the error of feet.
+    (1.0 - SLACK) * nearest - (1.0 / 3.0 + JUNG_SLACK) * longest
+}
+
+#[inline(always)]
+fn vector([x, y, z]: [f32; 3]) -> DVec3 {
+    DVec3::new(x.into(), y.into(), z.into())
 }
 
 /// The place of a triangle that is nearest to another: the foot of the perpendicular, if that is in the triangle, else the nearest
@@ -145,7 +173,10 @@ mod tests {
                 if probe % 5 == 0 {
                     place = triangles[probe % count][probe % 3].map(f64::from);
                 }
-                let least = triangles.iter().map(|t| boxed_foot(place, t).1).fold(f64::INFINITY, f64::min);
+                let least = triangles
+                    .iter()
+                    .map(|t| boxed_foot(place, t, f64::INFINITY).unwrap().1)
+                    .fold(f64::INFINITY, f64::min);
                 // A distance that is met exactly is not beyond.
                 let exact = least.sqrt();
                 let exact = if square(exact) < least { exact.next_up() } else { exact };
@@ -173,5 +204,25 @@ mod tests {
             }
             assert!(count != 9 || seen.iter().all(|&count| count > 10), "{seen:?}");
         }
+    }
+
+    #[test]
+    fn corners_bound_the_distance_from_below() {
+        let (triangles, mut rng, mut close) = (soup(600, 3), Rng::at(6, Draw::Probe, &[]), 0);
+        for triangle in &triangles {
+            let corners = triangle.map(vector);
+            let longest = (0..3).map(|k| corners[k].distance_squared(corners[(k + 1) % 3])).fold(0.0, f64::max);
+            for far in [0.0, 0.01, 0.1, 1.0, 30.0] {
+                let shares = [rng.unit(), rng.unit()].map(f64::sqrt);
+                let at = corners[0].lerp(corners[1].lerp(corners[2], shares[1]), shares[0]);
+                let place = at + far * DVec3::from_array([0; 3].map(|_: i32| 2.0 * rng.unit() - 1.0));
+                let (bound, squared) = (least_by_corners(place, corners), searched(place, corners).powi(2));
+                assert!(bound <= squared, "{far}: {bound} {squared}");
+                close += usize::from(far >= 1.0 && squared - bound < longest);
+                let boxed = boxed_foot(place.to_array(), triangle, f64::INFINITY).unwrap();
+                assert_eq!(boxed.1, boxed_foot(place.to_array(), triangle, boxed.1).unwrap().1);
+            }
+        }
+        assert!(close > 300, "{close}");
     }
 }

@@ -29,19 +29,61 @@ pub struct Distances {
 }
 
 impl Distances {
-    /// A lower and an upper bound of the distance at a place of the box.
-    pub fn at(&self, place: [f64; 3]) -> [f64; 2] {
-        let shares: [f64; 3] = std::array::from_fn(|axis| (place[axis] - self.low[axis]) / self.sides[axis]);
-        let (mut squares, mut nearest, mut spread) = (self.corners.map(|corner| corner.least), 0, 0.0);
-        for axis in (0..3).rev() {
-            let (share, half) = (shares[axis], 1 << axis);
-            for corner in 0..half {
-                squares[corner] += share * (squares[corner + half] - squares[corner]);
+    /// Visits some places of a grid in the box, whose coordinates along each axis are given, with a lower and an upper bound of the
+    /// squared distance. A bit stands for each place: x is the fastest.
+    pub fn for_each(&self, grid: &[[f64; 4]; 3], among: u64, mut bounded: impl FnMut(u32, [f64; 2])) {
+        let columns = self.shares(grid, 0);
+        let (rows, layers) = (self.shares(grid, 1), self.shares(grid, 2));
+        for (z, layer) in (0..).zip(&layers) {
+            if among >> (16 * z) & 0xffff == 0 {
+                continue;
             }
-            spread += share * (1.0 - share) * square(self.sides[axis]);
-            nearest |= if share > 0.5 { half } else { 0 };
+            let least = |corner: usize| layer.between(self.corners[corner].least, self.corners[corner + 4].least);
+            let ends = [[least(0), least(1)], [least(2), least(3)]];
+            for (y, row) in (4 * z..).zip(&rows) {
+                let mut left = among >> (4 * y) & 0xf;
+                let [from, to] = [row.between(ends[0][0], ends[1][0]), row.between(ends[0][1], ends[1][1])];
+                while left != 0 {
+                    let x = left.trailing_zeros();
+                    left &= left - 1;
+                    let column = &columns[x as usize];
+                    let least = column.between(from, to) - (layer.spread + row.spread + column.spread);
+                    let foot = self.corners[column.nearest | row.nearest << 1 | layer.nearest << 2].foot;
+                    let most = between_squared([column.place, row.place, layer.place], foot);
+                    bounded(4 * y + x, [least.max(0.0), most]);
+                }
+            }
         }
-        [(squares[0] - spread).max(0.0).sqrt(), between(place, self.corners[nearest].foot)]
+    }
+
+    #[inline(always)]
+    fn shares(&self, grid: &[[f64; 4]; 3], axis: usize) -> [Share; 4] {
+        let of = |place: f64| {
+            let share = (place - self.low[axis]) / self.sides[axis];
+            let spread = share * (1.0 - share) * square(self.sides[axis]);
+            Share { place, share, spread, nearest: usize::from(share > 0.5) }
+        };
+        let [a, b, c, d] = grid[axis];
+        [of(a), of(b), of(c), of(d)]
+    }
+}
+
+/// A coordinate along an axis of a box.
+struct Share {
+    place: f64,
+    /// Of the side.
+    share: f64,
+    /// What convexity allows the squared distance to be less than interpolated.
+    spread: f64,
+    /// The nearest end: 0 or 1.
+    nearest: usize,
+}
+
+impl Share {
+    /// Interpolates between the ends.
+    #[inline(always)]
+    fn between(&self, from: f64, to: f64) -> f64 {
+        from + self.share * (to - from)
     }
 }
 
@@ -50,9 +92,9 @@ pub fn number_along(corner: usize, axis: usize) -> usize {
     corner >> axis & 1
 }
 
-/// The distance of two places.
-pub fn between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|k| square(a[k] - b[k])).sum::<f64>().sqrt()
+/// The squared distance of two places.
+pub fn between_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
+    square(a[0] - b[0]) + square(a[1] - b[1]) + square(a[2] - b[2])
 }
 
 #[cfg(test)]
@@ -63,17 +105,31 @@ mod tests {
     /// A box among places of a set, with the bounds of random places in it, and their distances.
     fn bounds(places: &[[f64; 3]], low: [f64; 3], sides: [f64; 3], rng: &mut Rng) -> Vec<([f64; 2], f64)> {
         let nearest = |place: [f64; 3]| {
-            let nearer = |a: &&[f64; 3], b: &&[f64; 3]| between(place, **a).total_cmp(&between(place, **b));
+            let nearer =
+                |a: &&[f64; 3], b: &&[f64; 3]| between_squared(place, **a).total_cmp(&between_squared(place, **b));
             *places.iter().min_by(nearer).unwrap()
         };
         let corners = std::array::from_fn(|corner| {
             let place = std::array::from_fn(|axis| low[axis] + number_along(corner, axis) as f64 * sides[axis]);
             let foot = nearest(place);
-            Corner { least: square(between(place, foot)), foot }
+            Corner { least: between_squared(place, foot), foot }
         });
         let distances = Distances { low, sides, corners };
-        let inside = (0..200).map(|_| std::array::from_fn(|axis| low[axis] + rng.unit() * sides[axis]));
-        inside.map(|place| (distances.at(place), between(place, nearest(place)))).collect()
+        let (mut found, mut all) = (Vec::new(), 0);
+        for among in [0; 6].map(|_: i32| rng.bits() & rng.bits()) {
+            let grid: [[f64; 4]; 3] =
+                std::array::from_fn(|axis| [0; 4].map(|_: i32| low[axis] + rng.unit() * sides[axis]));
+            let mut seen = 0;
+            distances.for_each(&grid, among, |bit, bounds| {
+                let place = [grid[0][bit as usize % 4], grid[1][bit as usize / 4 % 4], grid[2][bit as usize / 16]];
+                found.push((bounds.map(f64::sqrt), between_squared(place, nearest(place)).sqrt()));
+                seen |= 1 << bit;
+            });
+            assert_eq!(seen, among);
+            all += among.count_ones();
+        }
+        assert_eq!(found.len(), all as usize);
+        found
     }
 
     #[test]

@@ -12,7 +12,7 @@
 use crate::interior::Interior;
 use crate::math::square;
 use crate::plane::{Lattice, Rect};
-use crate::volume::distances::{Corner, Distances, between, number_along};
+use crate::volume::distances::{Corner, Distances, between_squared, number_along};
 use crate::volume::voxels::{Level, Voxel};
 
 /// Distances are right to this share of the diagonal of the box around the mesh (`interior/nearest.rs`).
@@ -26,6 +26,9 @@ const MANY: u32 = 8;
 
 /// Bounds of distances are close if they differ by no more than this many half diagonals of a part.
 const CLOSE: f64 = 2.0;
+
+/// No place of the surface.
+const FAR: [f64; 3] = [f64::INFINITY; 3];
 
 /// The part of a box that lies in a shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +102,7 @@ impl<'a> Shell<'a> {
 
     /// True if no place of a region with these halves of its sides belongs to the shell.
     pub fn is_beyond(&self, half: [f64; 3]) -> bool {
-        self.share([0.0; 3], half) == Share::None
+        self.share([0.0; 3], half, FAR).0 == Share::None
     }
 
     /// Finds the shares of some cells.
@@ -109,7 +112,7 @@ impl<'a> Shell<'a> {
         for voxel in some {
             shares[voxel.cell as usize] = Share::Some;
         }
-        self.sort_box([[0; 3], cells.counts], &mut shares);
+        self.sort_box([[0; 3], cells.counts], FAR, &mut shares);
         self.shares = shares;
     }
 
@@ -118,8 +121,8 @@ impl<'a> Shell<'a> {
         self.shares[cell]
     }
 
-    /// Sorts the cells of a box, which is halved until it is small or lies on one side.
-    fn sort_box(&self, [from, to]: [[usize; 3]; 2], shares: &mut [Share]) {
+    /// Sorts the cells of a box, which is halved until it is small or lies on one side. A place of the surface makes searches shorter.
+    fn sort_box(&self, [from, to]: [[usize; 3]; 2], foot: [f64; 3], shares: &mut [Share]) {
         let Cells { counts, side, half } = self.cells;
         let row = |y: usize, z: usize| {
             let first = (z * counts[1] + y) * counts[0];
@@ -130,7 +133,8 @@ impl<'a> Shell<'a> {
             return;
         }
         let centre = std::array::from_fn(|k| 0.5 * (from[k] + to[k]) as f64 * side[k] - half[k]);
-        let share = self.share(centre, std::array::from_fn(|k| 0.5 * (to[k] - from[k]) as f64 * side[k]));
+        let halves = std::array::from_fn(|k| 0.5 * (to[k] - from[k]) as f64 * side[k]);
+        let (share, foot) = self.share(centre, halves, foot);
         let longest = (0..3).max_by_key(|&k| to[k] - from[k]).unwrap_or_default();
         match share {
             // The corners of the cells of a small box say more than their centres.
@@ -139,8 +143,8 @@ impl<'a> Shell<'a> {
                 let (mut below, mut above) = (to, from);
                 let middle = (from[longest] + to[longest]) / 2;
                 (below[longest], above[longest]) = (middle, middle);
-                self.sort_box([from, below], shares);
-                self.sort_box([above, to], shares);
+                self.sort_box([from, below], foot, shares);
+                self.sort_box([above, to], foot, shares);
             }
             _ => {
                 for (y, z) in rows {
@@ -152,13 +156,19 @@ impl<'a> Shell<'a> {
         }
     }
 
-    /// The share of a box by its centre and half its sides.
-    fn share(&self, centre: [f64; 3], halves: [f64; 3]) -> Share {
-        let (distance, reach) = (self.thickness.distance, self.reach(halves));
-        match self.interior.nearest_in_band(self.place(centre), [distance - reach, distance + reach]) {
-            None => Share::None,
-            Some((_, squared)) if is_within(squared, distance - reach) => Share::All,
-            Some(_) => Share::Some,
+    /// The share of a box by its centre and half its sides, with the place of the surface by which it is known. Another such place, or
+    /// one that is infinitely far, makes the search shorter.
+    fn share(&self, centre: [f64; 3], halves: [f64; 3], foot: [f64; 3]) -> (Share, [f64; 3]) {
+        let (Thickness { distance, error }, reach, place) = (self.thickness, self.reach(halves), self.place(centre));
+        let (near, beyond) = (distance - reach, distance + reach);
+        let known = between_squared(place, foot);
+        if is_within(known, near) {
+            return (Share::All, foot);
+        }
+        let far = known.sqrt() + error;
+        match self.interior.nearest_in_band(place, [near, beyond.min(far)]) {
+            None => (if far < beyond { Share::Some } else { Share::None }, foot),
+            Some((foot, squared)) => (if is_within(squared, near) { Share::All } else { Share::Some }, foot),
         }
     }
 
@@ -168,22 +178,30 @@ impl<'a> Shell<'a> {
         let (thickness, reach) = (self.thickness.distance, self.reach(level.part_halves.map(f64::from)));
         let near = thickness - reach;
         let band = [near, if drops_cut { near } else { thickness + reach }];
-        let place = |bit: u32| self.place(level.part_centre(centre, bit).map(f64::from));
+        let along = |axis: usize, number: usize| {
+            let place = f64::from(centre[axis] + level.offset(axis, number));
+            self.origin[axis] + self.radius * place
+        };
+        let grid: [[f64; 4]; 3] = std::array::from_fn(|axis| std::array::from_fn(|number| along(axis, number)));
+        let place = |bit: u32| {
+            let bit = bit as usize;
+            [grid[0][bit % 4], grid[1][bit / 4 % 4], grid[2][bit / 16]]
+        };
         let (mut inside, mut cut, mut open) = (0, 0, among);
         let mut sort = |around: &Distances, open: u64| {
-            let (mut left, mut unknown) = (open, 0);
-            while left != 0 {
-                let bit = left & left.wrapping_neg();
-                left ^= bit;
-                let [least, most] = around.at(place(bit.trailing_zeros()));
-                if most <= near {
+            let mut unknown = 0;
+            around.for_each(&grid, open, |bit, [least, most]| {
+                let bit = 1 << bit;
+                if is_within(most, near) {
                     inside |= bit;
-                } else if least <= band[1] {
-                    let is_cut = near < least && most <= band[1];
-                    let is_close = most - least <= CLOSE * reach;
-                    if !drops_cut && (is_cut || is_close) { cut |= bit } else { unknown |= bit }
+                } else if is_within(least, band[1]) {
+                    let is_decided = !drops_cut && {
+                        let is_cut = !is_within(least, near) && is_within(most, band[1]);
+                        is_cut || most.sqrt() - least.sqrt() <= CLOSE * reach
+                    };
+                    if is_decided { cut |= bit } else { unknown |= bit }
                 }
-            }
+            });
             unknown
         };
         open = sort(around, open);
@@ -202,26 +220,20 @@ impl<'a> Shell<'a> {
         [inside, cut]
     }
 
-    /// The distances at the corners of a cell.
+    /// The distances at the corners of a cell, which are kept.
     pub fn distances_of_cell(&mut self, place: [u16; 3]) -> Distances {
-        let Cells { counts, side, half } = self.cells;
-        if self.corners.is_empty() {
-            self.corners = vec![None; counts.iter().map(|count| count + 1).product()];
+        let (Cells { counts, side, half }, mut kept) = (self.cells, std::mem::take(&mut self.corners));
+        if kept.is_empty() {
+            kept = vec![None; counts.iter().map(|count| count + 1).product()];
         }
-        let mut foot = [f64::INFINITY; 3];
-        let corners = std::array::from_fn(|corner| {
-            let number: [usize; 3] = std::array::from_fn(|axis| usize::from(place[axis]) + number_along(corner, axis));
-            let index = (number[2] * (counts[1] + 1) + number[1]) * (counts[0] + 1) + number[0];
-            let known = self.corners[index].unwrap_or_else(|| {
-                let along = |axis: usize| number[axis] as f64 * side[axis] - half[axis];
-                self.corner(std::array::from_fn(along), side, foot)
-            });
-            self.corners[index] = Some(known);
-            foot = known.foot;
-            known
-        });
-        let low = self.place(std::array::from_fn(|axis| f64::from(place[axis]) * side[axis] - half[axis]));
-        Distances { low, sides: side.map(|side| self.radius * side), corners }
+        let number = |corner: usize, axis: usize| usize::from(place[axis]) + number_along(corner, axis);
+        let along = |corner: usize, axis: usize| number(corner, axis) as f64 * side[axis] - half[axis];
+        let index = |corner: usize| {
+            (number(corner, 2) * (counts[1] + 1) + number(corner, 1)) * (counts[0] + 1) + number(corner, 0)
+        };
+        let found = self.distances(side, along, |corner, ask| *kept[index(corner)].get_or_insert_with(ask));
+        self.corners = kept;
+        found
     }
 
     /// The distances at the corners of a box.
@@ -229,22 +241,33 @@ impl<'a> Shell<'a> {
         let sides = halves.map(|half| 2.0 * half);
         let low: [f64; 3] = std::array::from_fn(|axis| centre[axis] - halves[axis]);
         let along = |corner: usize, axis: usize| low[axis] + number_along(corner, axis) as f64 * sides[axis];
-        let mut foot = [f64::INFINITY; 3];
+        self.distances(sides, along, |_, ask| ask())
+    }
+
+    /// The distances at the corners of a box with these sides and coordinates of corners: those that are known, or what the mesh says.
+    fn distances(
+        &self,
+        sides: [f64; 3],
+        along: impl Fn(usize, usize) -> f64,
+        mut known: impl FnMut(usize, &dyn Fn() -> Corner) -> Corner,
+    ) -> Distances {
+        let place = |corner: usize| std::array::from_fn(|axis| along(corner, axis));
+        let mut foot = FAR;
         let corners = std::array::from_fn(|corner| {
-            let known = self.corner(std::array::from_fn(|axis| along(corner, axis)), sides, foot);
-            foot = known.foot;
-            known
+            let found = known(corner, &|| self.corner(place(corner), sides, foot));
+            foot = found.foot;
+            found
         });
-        Distances { low: self.place(low), sides: sides.map(|side| self.radius * side), corners }
+        Distances { low: self.place(place(0)), sides: sides.map(|side| self.radius * side), corners }
     }
 
     /// A corner of a box with these sides. If no place of the box can be cut, it is enough that it is far. A place of the surface that
     /// may be near, or infinitely far, makes the search shorter.
     fn corner(&self, place: [f64; 3], sides: [f64; 3], foot: [f64; 3]) -> Corner {
         let (Thickness { distance, error }, place) = (self.thickness, self.place(place));
-        let far = (distance + 2.0 * self.reach(sides)).min(between(place, foot) + error);
+        let far = (distance + 2.0 * self.reach(sides)).min(between_squared(place, foot).sqrt() + error);
         let nearest = self.interior.nearest_in_band(place, [-1.0, far]);
-        let (foot, distance) = nearest.map_or(([f64::INFINITY; 3], far), |(foot, squared)| (foot, squared.sqrt()));
+        let (foot, distance) = nearest.map_or((FAR, far), |(foot, squared)| (foot, squared.sqrt()));
         Corner { least: square((distance - error).max(0.0)), foot }
     }
 
