@@ -73,7 +73,7 @@ struct Share {
     place: f64,
     /// Of the side.
     share: f64,
-    /// What convexity allows the squared distance to be less than interpolated.
+    /// The most by which the squared distance, which is convex, is less than interpolated.
     spread: f64,
     /// The nearest end: 0 or 1.
     nearest: usize,
