@@ -3,7 +3,8 @@
 #
 #   scripts/platforms.sh [--long] [x86-levels] [arm64] [windows]
 #
-# x86-levels: the sums on processors of x86 without AVX, and without AVX-512. Needs no build of its own.
+# x86-levels: the sums on a processor of x86 without AVX; with --long on one without AVX-512, too, whose vector code the unit
+# tests run on this machine. Needs no build of its own.
 # arm64: the shared library, linked by C and C++ programs; the sums. With --long the library is that of CMake's build.
 # windows: DLL and command line are type-checked. With --long both are built by MinGW's compiler, and wine runs C and C++
 # programs, the command line and the sums.
@@ -73,15 +74,16 @@ layout_libraries() {
 # COMMAND... --package NAME: builds the package and the test program of the sums at once, so that what they share is
 # compiled once, and prints where the program is.
 sums_program() {
-    "$@" --lib --package azulejo --test sums --message-format=json |
+    "$@" --lib --package azulejo-conformance --test sums --message-format=json |
         sed -n 's/.*"name":"sums".*"executable":"\([^"]*\)".*/\1/p'
 }
 
 x86_levels() {
-    local program level
+    local program level levels=(Nehalem)
+    ! is_long || levels+=(Haswell)
     [ "$(uname -m)" = x86_64 ] || { echo "SKIPPED: levels of x86, on another processor" && return; }
     program=$(unset CARGO_PROFILE_DEV_OPT_LEVEL && sums_program cargo build --quiet --locked --no-default-features)
-    for level in Nehalem Haswell; do
+    for level in "${levels[@]}"; do
         echo "sums on $level"
         # Qemu names each feature that it does not emulate.
         qemu-x86_64-static -cpu $level "$program" --quiet $sums_filter 2>&1 | grep -v "TCG doesn't support"

@@ -65,8 +65,7 @@ syntax() {
     done
 }
 
-# Names of files become names of test programs, and those of tests/all become beginnings of names of tests.
-as_tests() { xargs basename -s .rs | sed 's/^/--test=/'; }
+# Names of files of tests/all become beginnings of names of tests.
 as_modules() { xargs basename -s .rs | sed 's/$/::/'; }
 
 # Runs the files that have property tests; scripts/test.sh with the same PROPTEST_RNG_SEED repeats a failure.
@@ -91,21 +90,19 @@ sanitized_address() {
     tests/c/sanitized.sh address
 }
 
-# Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only the unit tests, the
-# sums and the programs that name Embree run, except in a long run: the others would repeat what they did on the machine.
+# Packages of the registry that the same compiler has compiled are taken over. Of the Rust tests only those of conformance
+# run, on the library that the package has, except in a long run: the others would repeat what they did on the machine.
 on_debian13() {
-    local what=(--workspace)
-    if ! is_long; then
-        mapfile -t what < <(grep -lE '\b(trace|embree|engine)' tests/*.rs ffi/*/tests/*.rs | as_tests)
-        what+=(--test=sums --package azulejo --package azulejo-c --package azulejo-embree-sys --lib)
-    fi
     scripts/debian13.sh bash -ec '
-        scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         scripts/share-packages.sh target/package/build/cargo/release /var/cache/package/build/cargo/release
-        cargo test --offline --locked $1
         tests/c/package.sh --keep /var/cache/package
+        cargo test --offline --locked --release --target-dir /var/cache/package/build/cargo \
+            --package azulejo-conformance --package azulejo-embree-sys
         AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix
-        tests/c/debs.sh /var/cache/package' bash "${what[*]}"
+        tests/c/debs.sh /var/cache/package'
+    ! is_long || scripts/debian13.sh bash -ec '
+        scripts/share-packages.sh target/debug /var/cache/azulejo/debug
+        cargo test --offline --locked --workspace'
 }
 
 # Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
@@ -148,7 +145,8 @@ all_stages() {
     touch "$work/packaged"
     stage "README and guides: their programs and commands" \
         tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
-    stage "C and C++ programs: plain, under valgrind" tests/c/run.sh $package/prefix --valgrind
+    stage "C and C++ programs: plain, under valgrind" \
+        tests/c/run.sh $package/prefix --valgrind$(is_long || echo -brief)
     stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh $(if_long)
     stage "Sums on other levels of x86" scripts/platforms.sh $(if_long) x86-levels
     stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address

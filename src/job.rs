@@ -250,25 +250,23 @@ impl<'a> Job<'a> {
         share: &dyn Fn(usize) -> f64,
         task: &(dyn Fn(usize) + Sync),
     ) -> Result<()> {
-        let (finished, cancelled, end) = (AtomicUsize::new(0), AtomicBool::new(false), End::default());
+        let (finished, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let watched = |i| {
+            if !cancelled.load(Ordering::Relaxed) {
+                task(i);
+                finished.fetch_add(1, Ordering::Relaxed);
+            }
+        };
         let mut verdict = Ok(());
-        pool.in_place_scope(|scope| {
-            scope.spawn(|_| {
-                let _running = Running(&end);
-                (0..count).into_par_iter().for_each(|i| {
-                    if !cancelled.load(Ordering::Relaxed) {
-                        task(i);
-                        finished.fetch_add(1, Ordering::Relaxed);
-                    }
-                });
-            });
+        run_behind(pool, count, &watched, &mut |end| {
             while !end.is_reached_soon() {
                 if verdict.is_ok() {
                     verdict = self.report(share(finished.load(Ordering::Relaxed)));
                     cancelled.store(verdict.is_err(), Ordering::Relaxed);
                 }
             }
-        });
+            Ok(())
+        })?;
         verdict?;
         self.report(1.0)
     }
@@ -292,22 +290,24 @@ impl<'a> Job<'a> {
             return (0..count).try_for_each(|i| visit(task(i)));
         };
         let size = TASKS_AHEAD * pool.current_num_threads();
-        let mut ready = Vec::new();
+        let mut waiting = Vec::new();
         // One round more than there are batches: the first has nothing to visit yet, the last nothing to make.
         for start in (0..count + size).step_by(size) {
-            let batch = start..(start + size).min(count);
-            let (waiting, end) = (std::mem::take(&mut ready), End::default());
-            pool.in_place_scope(|scope| {
-                scope.spawn(|_| {
-                    let _running = Running(&end);
-                    ready = batch.into_par_iter().map(&task).collect();
-                });
-                waiting.into_iter().try_for_each(&mut visit)?;
+            let batch = (start + size).min(count).saturating_sub(start);
+            let slots: Vec<Mutex<Option<T>>> = (0..batch).map(|_| Mutex::new(None)).collect();
+            let fill = |i: usize| {
+                let result = task(start + i);
+                *slots[i].lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
+            };
+            run_behind(pool, batch, &fill, &mut |end| {
+                std::mem::take(&mut waiting).into_iter().try_for_each(&mut visit)?;
                 while !end.is_reached_soon() {
                     report()?;
                 }
                 Ok(())
             })?;
+            let result = |slot: Mutex<Option<T>>| slot.into_inner().unwrap_or_else(PoisonError::into_inner);
+            waiting = slots.into_iter().map(|slot| result(slot).expect("every task has run")).collect();
         }
         Ok(())
     }
@@ -327,23 +327,25 @@ impl<'a> Job<'a> {
         count: usize,
         task: impl Fn(usize) -> Vec<T> + Sync,
     ) -> Result<Vec<T>> {
-        let Some(pool) = self.pool_for(count) else {
+        if self.pool_for(count).is_none() {
             let mut all = Vec::new();
             self.stream(count, task, |part| {
                 all.extend_from_slice(&part);
                 Ok(())
             })?;
             return Ok(all);
-        };
+        }
         let parts = self.map(count, task)?;
         let mut all = vec![T::default(); parts.iter().map(Vec::len).sum()];
         let (mut rest, mut places) = (all.as_mut_slice(), Vec::with_capacity(parts.len()));
-        for part in &parts {
+        for part in parts {
             let (place, behind) = rest.split_at_mut(part.len());
-            places.push(place);
+            places.push((place, part));
             rest = behind;
         }
-        pool.install(|| places.into_par_iter().zip(parts).for_each(|(place, part)| place.copy_from_slice(&part)));
+        // The copies are no share of the call.
+        let silent = Job { progress: None, ..*self };
+        silent.map_each(places, |(place, part)| place.copy_from_slice(&part))?;
         Ok(all)
     }
 
@@ -371,6 +373,24 @@ impl<'a> Job<'a> {
         all.shrink_to_fit();
         Ok(all)
     }
+}
+
+/// Runs `task(0), .., task(count - 1)` on the pool, behind `meanwhile`, which the calling thread runs and which can wait for
+/// their end. Returns when both have ended.
+fn run_behind(
+    pool: &rayon::ThreadPool,
+    count: usize,
+    task: &(dyn Fn(usize) + Sync),
+    meanwhile: &mut dyn FnMut(&End) -> Result<()>,
+) -> Result<()> {
+    let end = End::default();
+    pool.in_place_scope(|scope| {
+        scope.spawn(|_| {
+            let _running = Running(&end);
+            (0..count).into_par_iter().for_each(task);
+        });
+        meanwhile(&end)
+    })
 }
 
 /// The end of tasks on the pool, by their return or by a panic, for which the calling thread waits. A condition variable knows

@@ -2,7 +2,7 @@
 //! the filter, on whichever Embree is installed; and an oracle that needs no Embree.
 //!
 //! The traces were recorded with Embree 3.13.5, by single rays, with
-//! `cargo test --test embree_traces record -- --ignored`.
+//! `cargo test -p azulejo-conformance --test embree_traces record -- --ignored`.
 //!
 //! Two Embrees, or two widths, need not agree in the last bits: what rounding may do to a hit is what the oracle says.
 //! That also settles rays through edges and vertices: a hit that rounding can hide may be missing, and one that rounding

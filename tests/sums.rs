@@ -6,15 +6,11 @@
 //! others are of domains, meshes and options that stand for themselves.
 //!
 //! A change that is not meant to alter a set leaves the files as they are. One that does writes them anew, and says so in the
-//! changelog: `AZULEJO_BLESS=1 cargo test --release --test sums`.
-
-#[path = "sums/all.rs"]
-mod all;
+//! changelog: `AZULEJO_BLESS=1 cargo test --release -p azulejo-conformance --test sums`.
 
 use azulejo::{Context, Result};
-
-use all::list::List;
-use all::{grids, sums};
+use azulejo_sums::list::List;
+use azulejo_sums::{grids, sums};
 
 /// The sums of small sets.
 fn few_sums() -> Result<List> {
@@ -37,10 +33,10 @@ fn check(file: &str, expected: &str, sums: Result<List>) {
 
 #[test]
 fn what_calls_return_has_the_sums_of_the_file() {
-    check("tests/sums.txt", include_str!("sums.txt"), sums(&Context::new(0).unwrap()));
+    check("sums.txt", include_str!("sums.txt"), sums(&Context::new(0).unwrap()));
 }
 
 #[test]
 fn what_calls_return_for_small_sets_has_the_sums_of_its_file() {
-    check("tests/few_sums.txt", include_str!("few_sums.txt"), few_sums());
+    check("few_sums.txt", include_str!("few_sums.txt"), few_sums());
 }

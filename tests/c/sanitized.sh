@@ -31,7 +31,8 @@ case $sanitizer in
     address)
         target=$instrumented
         library=$target/libazulejo_c.a
-        build_library() { cargo_instrumented rustc --package azulejo-c-abi --crate-type staticlib; }
+        # Beside the fuzz targets, whose features the compiled library has.
+        build_library() { cargo_instrumented build --package azulejo-fuzz --package azulejo-c-abi --lib; }
         runtime=asan
         checks+=(-fsanitize=undefined -fsanitize-undefined-trap-on-error -fno-sanitize=vptr)
         caught="AddressSanitizer: heap-buffer-overflow"

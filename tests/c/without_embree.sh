@@ -11,7 +11,7 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$root"
 prefix=target/without-embree/prefix
 
-cargo test --quiet --locked --package azulejo --no-default-features --test sums
+cargo test --quiet --locked --package azulejo-conformance --no-default-features --test sums
 [ "${1:-}" != --long ] ||
     cargo test --quiet --locked --package azulejo --no-default-features --test all -- psp:: given::
 # Cargo finds what the tests have compiled.

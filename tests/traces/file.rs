@@ -24,7 +24,7 @@ pub struct Trace {
 }
 
 fn path(name: &str) -> PathBuf {
-    [env!("CARGO_MANIFEST_DIR"), "tests", "traces", &format!("{name}.trace")].iter().collect()
+    [env!("CARGO_MANIFEST_DIR"), "traces", &format!("{name}.trace")].iter().collect()
 }
 
 fn numbers<T: FromStr, const N: usize>(words: &[&str]) -> [T; N] {
