@@ -5,10 +5,11 @@
 #
 # x86-levels: the sums on a processor of x86 without AVX; with --long on one without AVX-512, too, whose vector code the unit
 # tests run on this machine. Needs no build of its own.
-# arm64: the shared library, linked by C and C++ programs; the sums. With --long the library is that of CMake's build.
-# windows: DLL and command line are type-checked. With --long both are built by MinGW's compiler, and wine runs C and C++
-# programs, the command line and the sums.
-# The sums are those of small sets, and the programs a few, with --long all sums, and all programs that can run there.
+# arm64: the libraries and the command line are type-checked. With --long qemu runs C and C++ programs that link the shared
+# library of CMake's build, and the sums.
+# windows: the same. With --long DLL and command line are built by MinGW's compiler, and wine runs C and C++ programs, the
+# command line and the sums.
+# The sums are those of small sets, with --long all.
 # All of it, if none is named. Rust's standard library for a target is installed by rustup; where that cannot be had,
 # nightly builds it from its sources; without those the target is skipped, which is said.
 set -euo pipefail
@@ -28,19 +29,13 @@ for argument; do
 done
 [ ${#targets[@]} -gt 0 ] || targets=(x86-levels arm64 windows)
 
-root=.
-. tests/c/version.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# The programs of a smoke run: layouts of structs, reports of all calls, the C++ wrapper.
-few=(abi.c reports.c no_exceptions.cpp)
 sums_filter=small
 [ $long = no ] || sums_filter=
 
 is_long() { [ $long = yes ]; }
 
-# Here the emulated programs take longer than their optimisation, except in a long run.
-is_long || export CARGO_PROFILE_DEV_OPT_LEVEL=1
 # Nothing waits for builds for this machine, which may run at the same time.
 build=target/platforms
 export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc
@@ -82,7 +77,7 @@ x86_levels() {
     local program level levels=(Nehalem)
     ! is_long || levels+=(Haswell)
     [ "$(uname -m)" = x86_64 ] || { echo "SKIPPED: levels of x86, on another processor" && return; }
-    program=$(unset CARGO_PROFILE_DEV_OPT_LEVEL && sums_program cargo build --quiet --locked --no-default-features)
+    program=$(sums_program cargo build --quiet --locked --no-default-features)
     for level in "${levels[@]}"; do
         echo "sums on $level"
         # Qemu names each feature that it does not emulate.
@@ -108,30 +103,32 @@ run_programs() {
     done
 }
 
-# NAME...: the sources of a smoke run, or all but those named.
+# NAME...: the sources of all programs but those named.
 programs() {
     local source
-    if ! is_long; then
-        printf 'tests/c/%s\n' "${few[@]}"
-        return
-    fi
     for source in tests/c/*.c tests/c/*.cpp; do
         [[ " $* " == *" $(basename "$source") "* ]] || echo "$source"
     done
 }
 
+# All that a run that is not long does with the target at hand.
+type_check() {
+    run_cargo check --package azulejo-c --package azulejo-cli
+    echo "SKIPPED: programs on $target (--long)"
+}
+
 on_arm64() { qemu-aarch64-static -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$PWD/$library" "$@"; }
 
 arm64() {
-    local target=$arm program sources library=$build/$arm/debug
+    local target=$arm program sources library=$build/arm64/lib
     has_std $target || return 0
-    program=$(sums_program run_cargo build --package azulejo-c)
-    ln -sfn libazulejo.so "$library/libazulejo.so.$abi"
-    if is_long; then
-        layout_libraries arm64 -D CMAKE_SYSTEM_NAME=Linux -D CMAKE_SYSTEM_PROCESSOR=aarch64 \
-            -D CMAKE_C_COMPILER=aarch64-linux-gnu-gcc
-        library=$build/arm64/lib
+    if ! is_long; then
+        type_check
+        return
     fi
+    program=$(sums_program run_cargo build --package azulejo-c)
+    layout_libraries arm64 -D CMAKE_SYSTEM_NAME=Linux -D CMAKE_SYSTEM_PROCESSOR=aarch64 \
+        -D CMAKE_C_COMPILER=aarch64-linux-gnu-gcc
     # What has a scene of Embree's, and what times threads.
     mapfile -t sources < <(programs host.c num_threads.c)
     run_programs on_arm64 aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ "$library" "" "${sources[@]}"
@@ -191,8 +188,7 @@ windows() {
         return
     fi
     if ! is_long; then
-        run_cargo check --package azulejo-c --package azulejo-cli
-        echo "SKIPPED: programs under wine (--long)"
+        type_check
         return
     fi
     layout_libraries windows -D CMAKE_SYSTEM_NAME=Windows -D CMAKE_SYSTEM_PROCESSOR=x86_64 \

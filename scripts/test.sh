@@ -95,7 +95,7 @@ sanitized_address() {
 on_debian13() {
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/package/build/cargo/release /var/cache/package/build/cargo/release
-        tests/c/package.sh --keep /var/cache/package
+        tests/c/package.sh --brief --keep /var/cache/package
         cargo test --offline --locked --release --target-dir /var/cache/package/build/cargo \
             --package azulejo-conformance --package azulejo-embree-sys
         AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix
@@ -109,7 +109,7 @@ on_debian13() {
 lane() {
     stage "Debian roots" debian_roots
     stage "FFI boundary under Miri" scripts/miri.sh
-    stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
+    ! is_long || stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
     stage "arm64 and Windows" scripts/platforms.sh $(if_long) arm64 windows
     until [ -e "$work/packaged" ]; do sleep 1; done
     stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
@@ -136,8 +136,8 @@ quick_stages() {
 all_stages() {
     stage "What is missing" scripts/setup.sh "$(is_long && echo --long || echo --all)"
     [ "$(id -u)" = 0 ] || sudo -v
-    early_stages
     behind lane
+    early_stages
     stage "Documentation" scripts/docs.sh
     stage "Rust tests on this machine's Embree" cargo test --locked --workspace
     stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks" \

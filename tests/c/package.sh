@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Tests the CMake package: builds and installs azulejo into a temporary prefix and uses it as other projects do.
 #
-#   tests/c/package.sh [--quick] [--keep DIR]      with --keep: builds and installs in DIR (DIR/build, DIR/prefix), which stays
+#   tests/c/package.sh [--quick | --brief] [--keep DIR]
 #
-# With --quick the library is that of cargo's profile dev, which the Rust tests have compiled, and it is used in one place only.
+# With --keep the library is built and installed in DIR (DIR/build, DIR/prefix), which stays. With --brief it is used in one
+# place only; with --quick also, and it is that of cargo's profile dev.
 # examples_c outside the tree, shared and static, through find_package; plane.c through pkg-config; as a guest in other
 # programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; Embree is loaded on use (lazy.sh);
 # debugging information is beside the library; licences are installed; and a version that is not there is refused.
@@ -12,11 +13,17 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-base=$work quick=no profile=release
-if [ "${1:-}" = --quick ]; then
-    quick=yes profile=dev
-    shift
-fi
+base=$work quick=no brief=no profile=release
+case ${1:-} in
+    --quick)
+        quick=yes brief=yes profile=dev
+        shift
+        ;;
+    --brief)
+        brief=yes
+        shift
+        ;;
+esac
 if [ "${1:-}" = --keep ]; then
     mkdir -p "${2:?--keep needs a directory}"
     base=$(cd "$2" && pwd)
@@ -111,7 +118,7 @@ step "debugging information beside the library" has_debug_file
 step "static: without debugging information" static_has_no_debug_info
 "$root/tests/c/lazy.sh" "$prefix"
 step "version $abi is found" find_version "$abi"
-[ $quick = no ] || exit 0
+[ $brief = no ] || exit 0
 step "examples, static" examples "$work/static" "$prefix" -DAZULEJO_EXAMPLES_STATIC=ON
 step "they do not need libazulejo.so" is_static "$work/static/plane"
 step "they run" run_examples "$work/static"
