@@ -111,6 +111,7 @@ lane() {
     stage "FFI boundary under Miri" scripts/miri.sh
     ! is_long || stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
     stage "arm64 and Windows" scripts/platforms.sh $(if_long) arm64 windows
+    stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
     until [ -e "$work/packaged" ]; do sleep 1; done
     stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
     stage "Debian packages: installed, used and removed in a clean Debian 13 root" scripts/clean-root.sh 13 \
@@ -149,7 +150,6 @@ all_stages() {
         tests/c/run.sh $package/prefix --valgrind$(is_long || echo -brief)
     stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh $(if_long)
     stage "Sums on other levels of x86" scripts/platforms.sh $(if_long) x86-levels
-    stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
     stage "Python: a wheel, installed and tested in a clean environment" bindings/python/test.sh $(if_long)
     stage "Packages of crates, recipes for vcpkg, conan and conda, workflows" packaging/test.sh $(if_long)
     stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh $(if_long)
