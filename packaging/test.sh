@@ -29,8 +29,8 @@ crates() {
     local dirty=() crate unpacked=$work/unpacked
     [ -z "$(git -C "$root" status --porcelain)" ] || dirty=(--allow-dirty)
     rm -rf "$work/crates/package" "$unpacked"
-    (cd "$root" && cargo package --quiet --workspace --exclude azulejo-studies --exclude azulejo-conformance --no-verify --locked "${dirty[@]}" \
-        --target-dir "$work/crates")
+    (cd "$root" && cargo package --quiet --workspace --exclude azulejo-studies --exclude azulejo-conformance --no-verify \
+        --locked "${dirty[@]}" --target-dir "$work/crates")
     mkdir "$unpacked"
     for crate in "$work"/crates/package/*.crate; do
         echo "$crate"

@@ -4,9 +4,10 @@
 #   scripts/test.sh          what a change must pass on its author's machine: format, lints, all Rust tests, the C
 #                            package, C and C++ programs, the code in README and guides
 #   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, sanitizers, valgrind, Miri, fuzzing,
-#                            Python, JavaScript, the site, other processors and systems, Embree 4.3, packages in clean roots
+#                            Python, JavaScript, the site, Embree 4.3, packages in clean roots; other systems are type-checked
 #   scripts/test.sh --long   once a week: also fresh seeds for the property tests, a minute of fuzzing for each target,
-#                            guarantees that are broken to see a test fail, all Rust tests and sums everywhere
+#                            guarantees that are broken to see a test fail, ThreadSanitizer, valgrind on all programs, other
+#                            processors and systems, all Rust tests and sums everywhere
 #
 # The first needs root only for packages that are missing (scripts/setup.sh lists them), the others for their Debian roots.
 # What fails often comes first: every workspace and program is compiled before any long stage. The last lines list the cost
