@@ -39,8 +39,7 @@ pub struct Dcr {
 
 /// The size of the study.
 pub struct Effort {
-    /// Points of a set, and sets of that size from each start: by the momentum method, and by the thesis's, which is
-    /// slow.
+    /// Points of a set, and sets of that size from each start: by the momentum method, and by the thesis's.
     pub momentum: &'static [(usize, u64)],
     pub thesis: &'static [(usize, u64)],
     /// The same by the momentum method on a bounded square.
@@ -51,7 +50,7 @@ pub struct Effort {
 
 const FULL: Effort = Effort {
     momentum: &[(1000, 64), (4096, 16), (65_536, 2), (1_000_000, 1)],
-    thesis: &[(1000, 8), (4096, 4), (65_536, 1)],
+    thesis: &[(1000, 20), (4096, 20), (65_536, 20), (1_000_000, 1)],
     bounded: &[(1000, 32), (4096, 16), (65_536, 4)],
     pictured: 65_536,
 };

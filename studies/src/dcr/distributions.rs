@@ -36,7 +36,7 @@ type Curves = Vec<Vec<f64>>;
 
 /// The section.
 pub fn section(study: &Study) -> Result<String> {
-    let (count, sets) = if study.quick { (300, 1) } else { (4096, 2) };
+    let (count, sets) = if study.quick { (300, 1) } else { (4096, 20) };
     let cases: Vec<_> = RADII.iter().flat_map(|radii| DISTRIBUTIONS.map(|(_, one)| (radii, one))).collect();
     let curves = study.each("distributions", cases.len() * sets, |context, i| {
         let (&[conflict_radius, attraction_radius], distribution) = cases[i / sets];
