@@ -71,9 +71,11 @@ static azulejo_status volume_tiled(const azulejo_context *context, size_t count)
     return of_cube(context, &o);
 }
 
-static azulejo_status volume_adaptive(const azulejo_context *context, size_t count) {
-    /* The mean of 1 / radius^3 of a ramp from 1 to 2.1 is 0.3515. */
-    const float least = (float)cbrt(0.7336 * 0.3515 / (double)count), radii[2] = {least, (float)(2.1 * least)};
+/* Of radii that grow along x by a ratio, which jump back at the seam of the torus. The mean of 1 / radius^3 is
+   (1 + ratio) / (2 ratio^2) in least radii. */
+static azulejo_status volume_ramp(const azulejo_context *context, size_t count, double ratio) {
+    const double least = cbrt(0.7336 * (1 + ratio) / (2 * ratio * ratio) / (double)count);
+    const float radii[2] = {(float)least, (float)(ratio * least)};
     azulejo_volume_adaptive_options o;
     azulejo_points *points = NULL;
     ACCEPTED(azulejo_volume_adaptive_options_init(&o, sizeof o));
@@ -83,23 +85,26 @@ static azulejo_status volume_adaptive(const azulejo_context *context, size_t cou
     return freed(azulejo_volume_adaptive_sample(context, NULL, &o, &points, NULL), points);
 }
 
-/* The cube has a volume of 1. */
-static azulejo_status volume_inside(const azulejo_context *context, size_t count) {
+static azulejo_status volume_adaptive(const azulejo_context *c, size_t n) { return volume_ramp(c, n, 2.1); }
+static azulejo_status volume_steep(const azulejo_context *c, size_t n) { return volume_ramp(c, n, 64); }
+
+/* Of the cube, which has a volume of 1, or of a shell of it. */
+static azulejo_status inside_cube(const azulejo_context *context, double radius, double thickness) {
     azulejo_volume_inside_options o;
     azulejo_points *points = NULL;
     ACCEPTED(azulejo_volume_inside_options_init(&o, sizeof o));
-    o.radius = volume_radius(count);
+    o.radius = radius;
+    o.thickness = thickness;
     return freed(azulejo_volume_sample_inside(context, cube, &o, &points, NULL), points);
 }
 
-/* A shell of the cube, with a volume of .488. */
+static azulejo_status volume_inside(const azulejo_context *context, size_t count) {
+    return inside_cube(context, volume_radius(count), 0);
+}
+
+/* A shell with a volume of .488. */
 static azulejo_status volume_shell(const azulejo_context *context, size_t count) {
-    azulejo_volume_inside_options o;
-    azulejo_points *points = NULL;
-    ACCEPTED(azulejo_volume_inside_options_init(&o, sizeof o));
-    o.radius = volume_radius(count) * cbrt(0.488);
-    o.thickness = 0.1;
-    return freed(azulejo_volume_sample_inside(context, cube, &o, &points, NULL), points);
+    return inside_cube(context, volume_radius(count) * cbrt(0.488), 0.1);
 }
 
 static azulejo_status volume_progressive(const azulejo_context *context, size_t count) {
@@ -229,13 +234,8 @@ static azulejo_status volume_of_classes(const azulejo_context *context, size_t c
     return freed(azulejo_volume_sample_classes(context, &o, &of, &points, NULL), points);
 }
 
-static azulejo_status volume_classes(const azulejo_context *context, size_t count) {
-    return volume_of_classes(context, count, 1.5);
-}
-
-static azulejo_status volume_equal_classes(const azulejo_context *context, size_t count) {
-    return volume_of_classes(context, count, 1);
-}
+static azulejo_status volume_classes(const azulejo_context *c, size_t n) { return volume_of_classes(c, n, 1.5); }
+static azulejo_status volume_equal_classes(const azulejo_context *c, size_t n) { return volume_of_classes(c, n, 1); }
 
 static azulejo_status plane_4_classes(const azulejo_context *context, size_t count) {
     return plane_of_classes(context, count, 4, AZULEJO_ORDER_ANY);
@@ -753,6 +753,7 @@ static const struct {
     {"volume", volume, 1000000, MOST_ASKED},
     {"volume, tiled", volume_tiled, 1000000, MOST_ASKED},
     {"volume, adaptive", volume_adaptive, 500000, MOST_ASKED_UNEVENLY},
+    {"volume, adaptive, steep", volume_steep, 100000, MOST_ASKED_UNEVENLY},
     {"volume, inside a mesh", volume_inside, 500000, MOST_ASKED_AROUND},
     {"volume, shell of a mesh", volume_shell, 250000, MOST_ASKED_AROUND},
     {"volume, progressive", volume_progressive, 400000, MOST_ASKED_UNEVENLY},

@@ -31,6 +31,8 @@ pub struct Block {
     pub key: u64,
     /// Bounds of the radius in it.
     pub bounds: [f64; 2],
+    /// The approximate number of samples in it.
+    pub expected: f64,
     /// The lattice points that first darts fall on, and bounds of the radius there.
     pub region: Rect<3>,
     pub around: [f64; 2],
@@ -61,12 +63,14 @@ pub struct Blocks {
     pub octaves: Vec<Vec<Vec<u32>>>,
     /// The approximate number of samples.
     pub expected: f64,
+    /// The approximate number of samples in and around the block that has the most of them.
+    pub most_standing: f64,
 }
 
 impl Blocks {
     /// The blocks of a lattice, which depend on the seed. Fails if there are more samples than `limit`.
     pub fn new(job: &Job, lattice: &Lattice<3>, field: &RadiusField, seed: u64, limit: f64) -> Result<Self> {
-        let (nodes, mut blocks, expected) = tree(job, lattice, field, seed, limit)?;
+        let (nodes, mut blocks) = tree(job, lattice, field, seed, limit)?;
         let images = images(lattice);
         let near = job.map(blocks.len(), |number| {
             let block = &blocks[number];
@@ -78,7 +82,9 @@ impl Blocks {
             block.neighbours = near;
         }
         let octaves = octaves(&blocks);
-        Ok(Self { blocks, octaves, expected })
+        let expected = blocks.iter().map(|block| block.expected).sum();
+        let most_standing = blocks.iter().map(|block| standing(&blocks, block)).fold(0.0, f64::max);
+        Ok(Self { blocks, octaves, expected, most_standing })
     }
 
     /// The radius of a set of one radius that has as many samples, in the units of the domain.
@@ -88,14 +94,14 @@ impl Blocks {
     }
 }
 
-/// The tree, its leaves, and the approximate number of samples.
+/// The tree and its leaves.
 fn tree(
     job: &Job,
     lattice: &Lattice<3>,
     field: &RadiusField,
     seed: u64,
     limit: f64,
-) -> Result<(Vec<Node>, Vec<Block>, f64)> {
+) -> Result<(Vec<Node>, Vec<Block>)> {
     let rect = lattice.rect();
     let root = Node { rect, key: hash(seed, Draw::Split, &[]), bounds: field.bounds, next: Next::Block(0) };
     let (mut nodes, mut blocks, mut next, mut expected) = (vec![root], Vec::new(), 0, 0.0);
@@ -113,7 +119,7 @@ fn tree(
             nodes.extend(halves.map(|(rect, key)| Node { rect, key, bounds, next: Next::Block(0) }));
         } else {
             nodes[next].next = Next::Block(blocks.len() as u32);
-            blocks.push(block(lattice, field, rect, key, bounds));
+            blocks.push(block(lattice, field, rect, key, bounds, samples));
             expected += samples;
             if expected > limit {
                 return Err(field.too_many());
@@ -121,7 +127,7 @@ fn tree(
         }
         next += 1;
     }
-    Ok((nodes, blocks, expected))
+    Ok((nodes, blocks))
 }
 
 /// Refuses largest radii that alone ask for more samples than `limit`.
@@ -145,7 +151,7 @@ fn split(rect: &Rect<3>, key: u64, least: f64) -> Option<[Rect<3>; 2]> {
 }
 
 /// A block without neighbours. Its first darts do not cross the seam of a torus, across which the slope need not hold.
-fn block(lattice: &Lattice<3>, field: &RadiusField, rect: Rect<3>, key: u64, bounds: [f64; 2]) -> Block {
+fn block(lattice: &Lattice<3>, field: &RadiusField, rect: Rect<3>, key: u64, bounds: [f64; 2], expected: f64) -> Block {
     let margin = bounds[0].ceil().min(f64::from(i32::MAX / 4)) as i32;
     let (mut region, mut around) = (rect.grown(margin).intersection(&lattice.rect()), bounds);
     if region != rect {
@@ -157,7 +163,7 @@ fn block(lattice: &Lattice<3>, field: &RadiusField, rect: Rect<3>, key: u64, bou
         }
     }
     let (neighbours, images) = Default::default();
-    Block { rect, key, bounds, region, around, neighbours, images }
+    Block { rect, key, bounds, expected, region, around, neighbours, images }
 }
 
 /// The displacements of the images of a domain.
@@ -197,6 +203,19 @@ fn neighbours(nodes: &[Node], number: usize, block: &Block, image: [i32; 3], fie
     }
     found.sort_unstable();
     found
+}
+
+/// The approximate number of samples of a block and of its neighbours that may matter to it: a neighbour has them in the part of
+/// it that lies near.
+fn standing(blocks: &[Block], block: &Block) -> f64 {
+    let part_of = |&(other, image): &Neighbour| {
+        let other = &blocks[other as usize];
+        let reach = (0.5 * (other.bounds[1] + block.around[1])).min(f64::from(i32::MAX / 4)) as i32;
+        let near = other.rect.translated(image).intersection(&block.region.grown(reach));
+        let along = |axis: usize| f64::from(near.length(axis).max(0)) / f64::from(other.rect.length(axis));
+        other.expected * (0..3).map(along).product::<f64>()
+    };
+    block.expected + block.neighbours.iter().map(part_of).sum::<f64>()
 }
 
 /// The blocks by octaves of their smallest radii, and in an octave by colours, in the order of their random ranks: each has the

@@ -15,9 +15,10 @@ use crate::volume::body::Body;
 /// The most bytes of memory that a sample takes, with its position and radius in the result.
 const BYTES_PER_SAMPLE: f64 = 90.0;
 
-/// The most bytes of the grid and the voxels of a block, which each thread has; and the least number of samples for which another
-/// thread is of use.
-const BYTES_PER_THREAD: f64 = (8 << 20) as f64;
+/// The most bytes of the grid and the voxels of a block, which each thread has, without and for each sample in and around the
+/// block; and the least number of samples for which another thread is of use.
+const BYTES_PER_THREAD: f64 = (4 << 20) as f64;
+const BYTES_PER_STANDING: f64 = 300.0;
 const SAMPLES_PER_THREAD: f64 = 1000.0;
 
 /// The share of the call that its blocks take.
@@ -49,7 +50,8 @@ pub fn complete(
         let radius = blocks.mean_radius(lattice);
         let expected = body.map_or(blocks.expected, |body| body.expected_samples(radius).min(blocks.expected));
         let threads = (context.num_threads() as f64).min(expected / SAMPLES_PER_THREAD).max(1.0);
-        let bytes = expected * BYTES_PER_SAMPLE + threads * BYTES_PER_THREAD;
+        let per_thread = BYTES_PER_THREAD + blocks.most_standing * BYTES_PER_STANDING;
+        let bytes = expected * BYTES_PER_SAMPLE + threads * per_thread;
         memory::require(bytes, source.argument(), &format!("about {expected:.0} samples"))?;
         let ground = Ground { lattice, field, solid: body.map(Body::solid) };
         maximal(&job.part(BLOCKS, 1.0), ground, &blocks)
