@@ -10,7 +10,7 @@ use crate::plane::{Lattice, Rect};
 
 use crate::kdrt::clip::Pattern;
 use crate::kdrt::options::{Kind, Options, check_leaf_size};
-use crate::kdrt::tiling::{self, Tiling};
+use crate::kdrt::tiling::Tiling;
 
 pub use crate::kdrt::divide::Fixed;
 
@@ -67,19 +67,6 @@ pub fn measure(options: &Options) -> Result<Stages> {
     }
     stages.samples = all.len() as u64;
     Ok(stages)
-}
-
-/// The leaves of a domain, found at once on one thread: their number, and how long that takes (thesis table 2.1).
-///
-/// # Errors
-/// Those of [`sample`](super::sample).
-pub fn divide(options: &Options) -> Result<(usize, Duration)> {
-    check_leaf_size(options.leaf_size)?;
-    let lattice = Lattice::new(&options.domain, radius(options)?)?;
-    let mut time = Duration::ZERO;
-    let leaves =
-        timed(&mut time, || tiling::tree(&lattice, options.leaf_size, options.seed).leaves(&lattice.rect()).len());
-    Ok((leaves, time))
 }
 
 /// A set made otherwise than by [`sample`](super::sample), and the time that it took.
@@ -198,14 +185,6 @@ mod tests {
         }
         assert!(sample_varied(&context, &options, 19.0, Fixed::Nothing).is_err());
         assert!(sample_varied(&context, &options, 251.0, Fixed::Nothing).is_err());
-    }
-
-    #[test]
-    fn the_leaves_of_a_domain_are_counted() {
-        let options = Options::new(0.004).domain(Domain::unit(Boundary::Bounded)).seed(3);
-        let (leaves, _) = divide(&options).unwrap();
-        // 250 radii wide, sides between 20 and 40 radii.
-        assert!((39..=156).contains(&leaves), "{leaves}");
     }
 
     // Each source of randomness in KDRT has its use (thesis §2.5.2 and fig. 2.20). Without random splits the seams lie

@@ -1,14 +1,14 @@
 //! Measures azulejo and writes the pages of `docs/` that show it, with their pictures.
 //!
 //! `cargo run --release -p azulejo-studies -- kdrt` writes `docs/kdrt.md`; so do `psp`, `dcr`, `classes`, `order`,
-//! `tiling`, `pixels`, `figures`, `gallery`, `goals` and `volume` their pages.
+//! `pixels`, `gallery`, `goals` and `volume` their pages.
 
 mod args;
 mod blue;
 mod chart;
+mod claims;
 mod classes;
 mod dcr;
-mod figures;
 mod files;
 mod gallery;
 mod goals;
@@ -19,7 +19,6 @@ mod pixels;
 mod psp;
 mod reference;
 mod repeated;
-mod tiling;
 mod timing;
 mod verdict;
 mod volume;
@@ -53,14 +52,8 @@ enum Study {
     Classes(classes::Study),
     /// Measure prefixes of progressive sets beside sets of their number, and what the order costs; takes some minutes.
     Order(order::Study),
-    /// Measure what else the thesis discusses of randomized tiling: seams, counts, patterns, merging; takes some
-    /// minutes.
-    Tiling(tiling::Tiling),
     /// Measure errors of sample sets for pixels, beside those of samplers that renderers use.
     Pixels(pixels::Study),
-    /// Measure figures of the thesis that are on no other page: pair correlation, a rasteriser, two million dots,
-    /// lights.
-    Figures(figures::Figures),
     /// Measure the performance targets of version 0.2 that are on no other page; takes some minutes.
     Goals(goals::Goals),
     /// Measure sets of cuboids and of the inside of meshes against their goals and beside others'; takes some minutes.
@@ -77,9 +70,7 @@ fn run(cli: &Cli) -> Result<()> {
         Study::Dcr(dcr) => dcr.run(&context),
         Study::Classes(classes) => classes.run(&context),
         Study::Order(order) => order.run(&context),
-        Study::Tiling(tiling) => tiling.run(&context),
         Study::Pixels(pixels) => pixels.run(&context),
-        Study::Figures(figures) => figures.run(&context),
         Study::Gallery(gallery) => gallery.run(&context),
         Study::Goals(goals) => goals.run(&context),
         Study::Volume(volume) => volume.run(&context),

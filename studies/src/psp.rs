@@ -82,7 +82,7 @@ const FULL: Effort = Effort {
     judged_rounds: ROUNDS,
     rounds: 3,
     growth: 3e5,
-    marks: &[1, 2, 3, 5, 10, 20, 30],
+    marks: &[1, 2, 3, 5, 10, 20, 30, 50],
     others: 1e5,
     rays: 1e6,
     detail: 48,

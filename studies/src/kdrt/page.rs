@@ -268,7 +268,7 @@ fn spectra(statistics: &[Statistics], times: &Times) -> String {
         "## Spectra and rates (thesis fig. 2.15 to 2.19)\n\n\
          Million samples per second, for sets of about {}; the pattern is made anew in each call. Other pages have other \
          calls: [order.md](order.md) sets with ranks, [classes.md](classes.md) fewer samples, \
-         [tiling.md](tiling.md) other seeds, [peers.md](peers.md) bounded sets, each in a process of its own. The thesis's machine was \
+         [tiling.md](archive/tiling.md) other seeds, [peers.md](peers.md) bounded sets, each in a process of its own. The thesis's machine was \
          a Core i7-4930K of 2013 with a GTX 1080, and its reference ran on that GPU.\n\n\
          | leaves | thesis, CPU | thesis, GPU | one thread | {} threads |\n|---|---|---|---|---|\n\
          | reference | | 4.3 | {} | |\n",

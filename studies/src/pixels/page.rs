@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::integrands::INTEGRANDS;
 use super::patterns::{PATTERNS, Pattern};
 use super::{Effort, Measured};
-use crate::tiling::claims::{Claim, Part, tables};
+use crate::claims::{self, Claim};
 use azulejo_cli::text::grouped;
 
 /// The samplers that renderers use, and those that are compared with them.
@@ -17,8 +17,8 @@ pub fn text(effort: &Effort, measured: &[Measured]) -> String {
     let cases = USUAL.map(|usual| cases(usual, effort, measured));
     let won = cases.each_ref().map(|cases| cases.iter().filter(|case| case.low.mean < case.high.mean).count());
     let introduction = introduction(effort, won, cases[0].len());
-    let part = Part { text: String::new(), claims: cases.into_iter().flatten().collect(), facts: Vec::new() };
-    [introduction, errors(effort, measured), tables(&[part])].join("\n")
+    let claims: Vec<_> = cases.into_iter().flatten().collect();
+    [introduction, errors(effort, measured), claims::table(&claims)].join("\n")
 }
 
 fn introduction(effort: &Effort, [sobol, stratified]: [usize; 2], cases: usize) -> String {

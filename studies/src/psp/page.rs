@@ -38,7 +38,7 @@ pub fn text(
         of the samples over those of the reference, a set that is only filled: darts into what is uncovered, cube by cube, which \
          gives a little more than unbiased darts (*Density of maximal sets*). Times \
         and rates are medians of some rounds, with their range in brackets, on a machine that may have had other work; what \
-        a table compares takes turns. Embree's scene is kept, as in [figures.md](figures.md), which times whole calls; \
+        a table compares takes turns. Embree's scene is kept, as in [figures.md](archive/figures.md), which times whole calls; \
         [peers.md](peers.md) times each call in a process of its own.\n";
     let absent =
         |one: &Missing| format!("\n**The {} was not given (`{} MESH`) and is left out.**\n", one.name, one.option);

@@ -111,7 +111,7 @@ fn rows_with(page: &str, cells: usize, number: usize) -> Vec<Vec<String>> {
 fn a_page_is_refused_where_it_cannot_be_written() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("file"), "").unwrap();
-    for page in ["kdrt", "psp", "dcr", "classes", "order", "tiling", "figures", "gallery", "goals", "volume"] {
+    for page in ["kdrt", "psp", "dcr", "classes", "order", "gallery", "goals", "volume"] {
         let refused = studies(&directory, &[page, "--quick", "--out", "file"]);
         let said = String::from_utf8(refused.stderr).unwrap();
         assert!(refused.status.code() == Some(1) && said.starts_with("error: file"), "{said}");
