@@ -18,7 +18,7 @@ const BYTES_PER_SAMPLE: f64 = 90.0;
 /// The most bytes of the grid and the voxels of a block, which each thread has, without and for each sample in and around the
 /// block; and the least number of samples for which another thread is of use.
 const BYTES_PER_THREAD: f64 = (4 << 20) as f64;
-const BYTES_PER_STANDING: f64 = 300.0;
+const BYTES_PER_STANDING: f64 = 450.0;
 const SAMPLES_PER_THREAD: f64 = 1000.0;
 
 /// The share of the call that its blocks take.

@@ -91,6 +91,7 @@ impl<S: Shape> Work for Fill<'_, S> {
         if voxels.is_empty() || self.field.has_failed() {
             return accepted;
         }
+        self.grid.reserve(self.standing.len());
         for &ball in self.standing {
             self.grid.add(ball);
         }

@@ -75,7 +75,11 @@ impl Set<'_> {
     /// this.
     fn standing(&self, number: u32, region: &Rect<3>, most: f64) -> Vec<Ball> {
         let block = &self.blocks.blocks[number as usize];
-        let mut standing = self.samples[number as usize].clone();
+        let own = &self.samples[number as usize];
+        // Of a block of large radii these can be more than all others: memory is taken once, and not more and more.
+        let of_neighbours: usize = block.neighbours.iter().map(|&(other, _)| self.samples[other as usize].len()).sum();
+        let mut standing = Vec::with_capacity(own.len() + of_neighbours);
+        standing.extend(own);
         for &(other, image) in &block.neighbours {
             let moved =
                 |ball: &Ball| Ball { centre: std::array::from_fn(|axis| ball.centre[axis] + image[axis]), ..*ball };
