@@ -94,6 +94,15 @@ fn sentences_name_the_fastest_where_ranges_do() {
             assert!(text.contains(&sentence), "{sentence}");
         }
     }
+    let text = page("archive/figures.md");
+    for table in tables(&text).iter().filter(|table| table.head[0] == "priorities") {
+        let Some(lowest) = lowest(table, table.head.len() - 1) else { continue };
+        let sentence = match lowest {
+            Some(row) => format!("here {} is the fastest.", table.rows[row][0]),
+            None => "which is the fastest is not decided here.".to_owned(),
+        };
+        assert!(text.contains(&sentence), "{sentence}");
+    }
 }
 
 /// The cell of the row whose first cells are these, in the column of this head.
