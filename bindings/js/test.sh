@@ -2,7 +2,7 @@
 # The package for npm: built, tested in Node, also on threads, and in headless Chromium; its types, and what is packed.
 #
 #   bindings/js/test.sh           its module with threads is hardly optimised
-#   bindings/js/test.sh --long    as it is published; sums also on threads
+#   bindings/js/test.sh --long    as it is published; all sums, also on threads
 set -euo pipefail
 cd "$(dirname "$0")"
 

@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
 # Makes the Debian packages of this machine's release and tests what they hold and depend on.
 #
-#   tests/c/debs.sh DIR      DIR is that of package.sh --keep, whose cargo has built the library; makes DIR/debs
+#   tests/c/debs.sh [--dev] DIR      DIR is that of package.sh --keep, whose cargo has built the library, with --dev if that
+#                                    had it; makes DIR/debs
 #
 # That they can be installed, used and removed is tested by installed.sh, in a clean root.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
-base=$(cd "${1:?usage: tests/c/debs.sh DIR}" && pwd)
+profile=release
+if [ "${1:-}" = --dev ]; then
+    profile=dev
+    shift
+fi
+base=$(cd "${1:?usage: tests/c/debs.sh [--dev] DIR}" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -18,7 +24,7 @@ make_packages() {
     rm -rf "$base/debs"
     mkdir -p "$base/debs-build"
     ln -sfn ../build/cargo "$base/debs-build/cargo"
-    cmake -S "$root" -B "$base/debs-build" -DCMAKE_INSTALL_PREFIX=/usr \
+    cmake -S "$root" -B "$base/debs-build" -DCMAKE_INSTALL_PREFIX=/usr -DAZULEJO_CARGO_PROFILE=$profile \
         -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" && cmake --build "$base/debs-build" &&
         cpack -G DEB --config "$base/debs-build/CPackConfig.cmake" -B "$base/debs" && rm -r "$base/debs/_CPack_Packages" &&
         runtime=$(ls "$base"/debs/libazulejo"$abi"_*.deb) && development=$(ls "$base"/debs/libazulejo-dev_*.deb) &&

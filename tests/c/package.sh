@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Tests the CMake package: builds and installs azulejo into a temporary prefix and uses it as other projects do.
 #
-#   tests/c/package.sh [--quick | --brief] [--keep DIR]
+#   tests/c/package.sh [--brief] [--dev] [--quick] [--keep DIR]
 #
 # With --keep the library is built and installed in DIR (DIR/build, DIR/prefix), which stays. With --brief it is used in one
-# place only; with --quick also, and it is that of cargo's profile dev.
+# place only; with --dev it is that of cargo's profile dev, in the folder DIR/build/cargo. --quick is both, in the project's
+# target folder, and without MPI.
 # examples_c outside the tree, shared and static, through find_package; plane.c through pkg-config; as a guest in other
 # programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; Embree is loaded on use (lazy.sh);
 # debugging information is beside the library; licences are installed; and a version that is not there is refused.
@@ -14,20 +15,23 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 base=$work quick=no brief=no profile=release
-case ${1:-} in
-    --quick)
-        quick=yes brief=yes profile=dev
-        shift
-        ;;
-    --brief)
-        brief=yes
-        shift
-        ;;
-esac
-if [ "${1:-}" = --keep ]; then
-    mkdir -p "${2:?--keep needs a directory}"
-    base=$(cd "$2" && pwd)
-fi
+while [ $# -gt 0 ]; do
+    case $1 in
+        --quick) quick=yes brief=yes profile=dev ;;
+        --brief) brief=yes ;;
+        --dev) profile=dev ;;
+        --keep)
+            mkdir -p "${2:?--keep needs a directory}"
+            base=$(cd "$2" && pwd)
+            shift
+            ;;
+        *)
+            sed -n '4s/^# *//p' "$0" >&2
+            exit 2
+            ;;
+    esac
+    shift
+done
 prefix=$base/prefix
 
 . "$root/tests/c/examples.sh"
@@ -79,7 +83,7 @@ has_debug_file() {
     local library debug
     library=$(readlink -f "$(find "$prefix" -name libazulejo.so)") debug=$(dirname "$library")/.debug/$(basename "$library").debug
     fails has_section .symtab "$library" && fails has_section .debug_info "$library" && has_section .symtab "$debug" &&
-        { [ $quick = yes ] || { [ "$(stat -c %s "$library")" -lt 9000000 ] && has_section .debug_info "$debug"; }; } &&
+        { [ $profile = dev ] || { [ "$(stat -c %s "$library")" -lt 9000000 ] && has_section .debug_info "$debug"; }; } &&
         [ "$(build_id "$library")" = "$(build_id "$debug")" ] &&
         readelf --debug-dump=links --debug-dump=follow-links "$library" >"$work/links" 2>&1 && head -n 20 "$work/links" &&
         grep -qF "Found separate debug info file: $(dirname "$debug")" "$work/links"
@@ -92,7 +96,7 @@ build_id() { readelf --notes "$1" | grep -o 'Build ID: [0-9a-f]*'; }
 static_has_no_debug_info() {
     local library
     library=$(find "$prefix" -name libazulejo.a)
-    { [ $quick = yes ] || [ "$(stat -c %s "$library")" -lt 20000000 ]; } && fails has_section .debug_info "$library"
+    { [ $profile = dev ] || [ "$(stat -c %s "$library")" -lt 20000000 ]; } && fails has_section .debug_info "$library"
 }
 
 make_mesh

@@ -1,27 +1,37 @@
-//! The sums of `tests/sums.txt`, taken on WebAssembly by the same cases, for `test/sums.test.js`.
+//! The sums of `tests/sums.txt` and `tests/few_sums.txt`, taken on WebAssembly by the same cases, for `test/sums.test.js`.
 
 use std::sync::OnceLock;
+
+use all::list::List;
 
 #[path = "../../../../tests/sums/all.rs"]
 mod all;
 #[path = "../../src/threads.rs"]
 mod threads;
 
-/// The lines, or the text of an error; made once.
-fn text() -> &'static str {
-    static TEXT: OnceLock<String> = OnceLock::new();
-    let sums = || all::sums(&*threads::context()?);
-    TEXT.get_or_init(|| sums().map_or_else(|error| error.to_string(), |list| list.to_string()))
+/// The lines of one of the two files, or the text of an error; made once.
+fn text(few: bool) -> &'static str {
+    static TEXTS: [OnceLock<String>; 2] = [OnceLock::new(), OnceLock::new()];
+    let sums = || -> azulejo::Result<List> {
+        let context = threads::context()?;
+        if !few {
+            return all::sums(&context);
+        }
+        let mut list = List::default();
+        all::grids(&context, true, &mut list)?;
+        Ok(list)
+    };
+    TEXTS[usize::from(few)].get_or_init(|| sums().map_or_else(|error| error.to_string(), |list| list.to_string()))
 }
 
 /// The address of the text.
 #[unsafe(no_mangle)]
-pub extern "C" fn sums_text() -> *const u8 {
-    text().as_ptr()
+pub extern "C" fn sums_text(few: bool) -> *const u8 {
+    text(few).as_ptr()
 }
 
 /// The number of its bytes.
 #[unsafe(no_mangle)]
-pub extern "C" fn sums_bytes() -> usize {
-    text().len()
+pub extern "C" fn sums_bytes(few: bool) -> usize {
+    text(few).len()
 }
