@@ -59,8 +59,10 @@ fewest() { # TARGET SECONDS
 brief() { # TARGET
     case $1 in
         kinds) echo 30 ;;
-        density) echo 60 ;;
-        analysis | edits | measure | mesh | relax | volume) echo 200 ;;
+        density | measure) echo 50 ;;
+        relax | volume) echo 100 ;;
+        analysis | edits | mesh) echo 200 ;;
+        mask | stl) echo 1000 ;;
         *) echo 2000 ;;
     esac
 }
