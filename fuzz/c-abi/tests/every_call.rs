@@ -248,6 +248,9 @@ fn planes() {
         options.given_count = 1;
         read_and_free(made(|out| azulejo_volume_sample(context.get(), &options, out, std::ptr::null_mut())));
         let of_classes = defaults(azulejo_volume_options_init);
+        let mut apart = [0f64; 4];
+        assert_eq!(azulejo_classes_radii([1.5f64, 0.9].as_ptr(), 2, 1.0, apart.as_mut_ptr()), AZULEJO_OK);
+        classes.radii = apart.as_ptr();
         read_and_free(made(|out| {
             azulejo_volume_sample_classes(context.get(), &of_classes, &classes, out, std::ptr::null_mut())
         }));
@@ -616,7 +619,7 @@ fn points() {
         assert!(coverage.gaps > 0);
         let mut annulus = azulejo_annulus { frequency: 0.0, power: 0.0, anisotropy: 0.0, count: 0 };
         let size = size_of::<azulejo_annulus>();
-        let radial = |out: Out<_>| azulejo_space_spectrum(context.get(), &set, 2.0, 1, 2.0, &mut annulus, 1, size, out);
+        let radial = |out: Out<_>| azulejo_space_spectrum(context.get(), &set, 1.5, 1, 1.5, &mut annulus, 1, size, out);
         assert_eq!(value(radial), 1);
         assert!(annulus.count >= 2);
         let (mut power, mut density) = ([-1.0; 2], [-1.0; 2]);
