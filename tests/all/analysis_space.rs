@@ -162,7 +162,7 @@ fn gaps_deeper_than_a_millionth_are_counted() {
         let rounding = TOLERANCE * float_spacing(&cube(boundary));
         // Those at the faces, edges and corners, too, which are one around the torus.
         let all = if boundary == Boundary::Periodic { SIDE.pow(3) } else { (SIDE + 1).pow(3) };
-        for (depth, gaps) in [(1.2e-6, all), (1e-4, all), (0.01, all), (-1e-9, 0), (-rounding, 0)] {
+        for (depth, gaps) in [(1.2e-6, all), (0.01, all), (-1e-9, 0), (-rounding, 0)] {
             let found = coverage(&cube(boundary), &points, farthest * (1.0 - depth) - rounding);
             assert_eq!(found.gaps, gaps, "{boundary:?}, depth {depth}");
         }
@@ -246,8 +246,9 @@ fn threads_change_nothing() {
             assert!(figures.conflicts > 500 && coverage.gaps > 10, "{figures:?} {coverage:?}");
             format!("{figures:?} {coverage:?}")
         };
-        assert_eq!(of(1), of(2));
-        assert_eq!(of(1), of(3));
+        let one = of(1);
+        assert_eq!(one, of(2));
+        assert_eq!(one, of(3));
     }
 }
 

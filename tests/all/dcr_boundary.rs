@@ -105,7 +105,7 @@ fn hardly_any_points_stay_in_conflict_at_a_boundary() {
     let domain = unit_square(Boundary::Bounded);
     let unit = domain.hexagonal_distance(count);
     for (neighbourhood, conflict_radius, sets, in_conflict) in
-        [(Neighbourhood::Delaunay, 0.85, 300, 4), (Neighbourhood::Nearest, 0.9, 10, 0)]
+        [(Neighbourhood::Delaunay, 0.85, 75, 1), (Neighbourhood::Nearest, 0.9, 10, 0)]
     {
         let rho = |seed| {
             let (relaxed, _) = run(&Options::new(domain, neighbourhood), &random_points(count, seed));

@@ -92,12 +92,12 @@ fn maximal_sets_get_more_even_as_a_whole_and_by_class() {
 fn any_start_ends_about_as_even() {
     for boundary in BOUNDARIES {
         for count in [2, 3, 4, 7] {
-            let random = |seed| random_points(6000, seed);
+            let random = |seed| random_points(2500, seed);
             let in_strips = |(i, [x, y]): (usize, [f32; 2])| [(x + (i % count) as f32) / count as f32, y];
             for (name, points) in [
                 ("random", random(5)),
                 ("corner", random(6).into_iter().map(|point| point.map(|x| 0.05 * x)).collect()),
-                ("place", vec![[0.3, 0.4]; 6000]),
+                ("place", vec![[0.3, 0.4]; 2500]),
                 ("strips", random(7).into_iter().enumerate().map(in_strips).collect::<Vec<_>>()),
             ] {
                 let classes: Vec<u32> = (0..points.len()).map(|i| (i % count) as u32).collect();

@@ -344,11 +344,13 @@ fn a_cancelled_call_leaves_a_valid_set_that_can_be_used_on() {
 fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
     let mesh = mesh(meshes::torus());
     let context = Context::new(1).unwrap();
-    for &engine in Engine::AVAILABLE {
+    // The engines report at the same places, and take turns at ending a call there.
+    let engines = Engine::AVAILABLE;
+    for (turn, &engine) in engines.iter().enumerate() {
         let options = ProjectionOptions::new(0.13).engine(engine);
         let expected = psp::project(&context, &mesh, &options, 1, true, None).unwrap().0;
         let mut lengths = vec![];
-        for limit in 1.. {
+        for limit in (1 + turn..).step_by(engines.len()) {
             let calls = Cell::new(0);
             let stop = |_| {
                 calls.set(calls.get() + 1);
@@ -369,7 +371,7 @@ fn whenever_it_is_cancelled_a_set_stays_valid_and_can_go_on() {
             psp.fill(&context, None).unwrap();
             check(&mesh, &psp.samples(), options.radius, true);
         }
-        assert!(lengths.len() > 20 && lengths.is_sorted(), "{}", lengths.len());
+        assert!(lengths.len() > 20 / engines.len() && lengths.is_sorted(), "{}", lengths.len());
         lengths.dedup();
         assert!(lengths.len() > 2 && lengths[0] == 0, "{lengths:?}");
     }
