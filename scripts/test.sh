@@ -101,8 +101,8 @@ on_debian13() {
         tests/c/package.sh --brief --dev --keep /var/cache/package
         conformance() { cargo test --offline --locked --target-dir /var/cache/package/build/cargo "$@"; }
         conformance --package azulejo-conformance --package azulejo-embree-sys -- --skip has_the_sums_of_the_file
-        AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix
-        tests/c/debs.sh --dev /var/cache/package'
+        AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix "$@"
+        tests/c/debs.sh --dev /var/cache/package' - $(is_long || echo --brief)
     ! is_long || scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         cargo test --offline --locked --workspace'
