@@ -111,7 +111,7 @@ on_debian13() {
 # Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
 lane() {
     stage "Debian roots" debian_roots
-    stage "FFI boundary under Miri" scripts/miri.sh
+    stage "FFI boundary under Miri" scripts/miri.sh $(if_long)
     ! is_long || stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
     stage "arm64 and Windows" scripts/platforms.sh $(if_long) arm64 windows
     stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
