@@ -6,8 +6,9 @@
 #   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, sanitizers, valgrind, Miri, fuzzing,
 #                            Python, JavaScript, the site, Embree 4.3, packages in clean roots; other systems are type-checked
 #   scripts/test.sh --long   once a week: also fresh seeds for the property tests, a minute of fuzzing for each target,
-#                            guarantees that are broken to see a test fail, ThreadSanitizer, valgrind on all programs, other
-#                            processors and systems, all Rust tests and sums everywhere
+#                            guarantees that are broken to see a test fail, ThreadSanitizer, valgrind on all programs, all
+#                            calls under Miri, WebAssembly with threads, the site in a browser, other processors and
+#                            systems, all Rust tests and sums everywhere
 #
 # The first needs root only for packages that are missing (scripts/setup.sh lists them), the others for their Debian roots.
 # What fails often comes first: every workspace and program is compiled before any long stage. The last lines list the cost
@@ -158,7 +159,7 @@ all_stages() {
     stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh $(if_long)
     stage "Blender extension: its manifest, and that its files compile" integrations/blender/test.sh --brief
     stage "Scenes in USD and glTF, by the validators of these formats" integrations/formats/test.sh
-    stage "Site: links, programs of the playground, pages in headless Chromium" site/test.sh
+    stage "Site: links and programs of the playground" site/test.sh $(if_long)
     stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
     if has_clean_root; then
         stage "Debian packages: installed, used and removed in a clean root of $release" \

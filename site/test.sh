@@ -1,8 +1,20 @@
 #!/usr/bin/env bash
-# The site: built, its links, the programs that the playground offers, and its pages in headless Chromium; their pictures are in
-# target/site-pictures. Takes bindings/js/azulejo.wasm if it is there.
+# The site: built, its links, and the programs that the playground offers. Takes bindings/js/azulejo.wasm if it is there.
+#
+#   site/test.sh [--long]
+#
+# With --long also its pages in headless Chromium, on threads if azulejo-threads.wasm is there; their pictures are in
+# target/site-pictures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+case ${1:-} in
+    "" | --long) ;;
+    *)
+        sed -n '/^#   /s/^# *//p' "$0" >&2
+        exit 2
+        ;;
+esac
 
 site/build.sh --built
 node site/test/links.js target/site
@@ -26,7 +38,9 @@ azulejo = { path = "../../..", default-features = false }
 TOML
 cargo check --quiet --offline --manifest-path $code/rust/Cargo.toml --target-dir target/site-check
 
-if command -v chromium >/dev/null; then
+if [ "${1:-}" != --long ]; then
+    echo "SKIPPED: the site in a browser (--long)"
+elif command -v chromium >/dev/null; then
     node site/test/site.js target/site target/site-pictures
 else
     echo "SKIPPED: the site in a browser (no chromium)"

@@ -2,14 +2,14 @@
 # Builds azulejo.wasm and azulejo-threads.wasm, which belong to the package.
 #
 #   bindings/js/build.sh            as they are published
-#   bindings/js/build.sh --brief    the one with threads hardly optimised, for tests
+#   bindings/js/build.sh --brief    without the one with threads, for tests
 set -euo pipefail
 cd "$(dirname "$0")"
 
-profile=release
+threads=yes
 case ${1:-} in
     "") ;;
-    --brief) profile=smoke ;;
+    --brief) threads=no ;;
     *)
         sed -n '/^#   /s/^# *//p' "$0" >&2
         exit 2
@@ -33,7 +33,7 @@ build_threads() {
         flags+=" -C link-arg=--$argument"
     done
     # The compiler warns of each crate that its target is not a stable one.
-    RUSTC_BOOTSTRAP=1 RUSTFLAGS=$flags cargo build --quiet --locked --profile $profile --target wasm32-unknown-unknown \
+    RUSTC_BOOTSTRAP=1 RUSTFLAGS=$flags cargo build --quiet --locked --release --target wasm32-unknown-unknown \
         -Z build-std=std,panic_abort --target-dir target/threads --workspace 2>target/threads.log ||
         { cat target/threads.log >&2; return 1; }
 }
@@ -44,9 +44,11 @@ cargo build --quiet --locked --release --target wasm32-unknown-unknown \
 take target/wasm32-unknown-unknown/release ""
 
 rm -f azulejo-threads.wasm target/sums-threads.wasm
-if rustup component list --installed | grep -qx rust-src || rustup component add rust-src >/dev/null 2>&1; then
+if [ $threads = no ]; then
+    echo "SKIPPED: azulejo-threads.wasm (--long)"
+elif rustup component list --installed | grep -qx rust-src || rustup component add rust-src >/dev/null 2>&1; then
     build_threads
-    take target/threads/wasm32-unknown-unknown/$profile -threads
+    take target/threads/wasm32-unknown-unknown/release -threads
 else
     echo "SKIPPED: azulejo-threads.wasm (rustup has no rust-src)"
 fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The package for npm: built, tested in Node, also on threads, and in headless Chromium; its types, and what is packed.
+# The package for npm: built, tested in Node, on threads, and in headless Chromium; its types, and what is packed.
 #
-#   bindings/js/test.sh           its module with threads is hardly optimised
+#   bindings/js/test.sh           without the module with threads, and what npm packs with it; the sums of small sets
 #   bindings/js/test.sh --long    as it is published; all sums, also on threads
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -25,8 +25,8 @@ for option; do
         --valgrind) modes+=(valgrind) ;;
         --valgrind-brief)
             modes+=(valgrind)
-            unwatched=(adaptive.c analysis.c classes_plane.c context_watch.c density.c merge.c mesh_density.c progress.c)
-            unwatched+=(reports.c sums.c volume.c windows.c relaxation.cpp statistics.cpp)
+            unwatched=(adaptive.c analysis.c classes_plane.c context_watch.c density.c edit.c kept.c memory.c merge.c)
+            unwatched+=(mesh_density.c progress.c reports.c sums.c volume.c windows.c relaxation.cpp statistics.cpp)
             ;;
         *) usage ;;
     esac
