@@ -27,8 +27,15 @@ pub fn sums(context: &Context) -> Result<List> {
     Ok(list)
 }
 
+/// The sums of small sets alone.
+pub fn few_sums(context: &Context) -> Result<List> {
+    let mut list = List::default();
+    grids(context, true, &mut list)?;
+    Ok(list)
+}
+
 /// Adds those of the grids, on small sets or large ones, of volumes and of masks.
-pub fn grids(context: &Context, small: bool, list: &mut List) -> Result<()> {
+fn grids(context: &Context, small: bool, list: &mut List) -> Result<()> {
     plane_grid::sums(context, small, list)?;
     mesh_grid::sums(context, small, list)?;
     volume::sums(context, small, list)?;

@@ -2,8 +2,6 @@
 
 use std::sync::OnceLock;
 
-use all::list::List;
-
 #[path = "../../../../tests/sums/all.rs"]
 mod all;
 #[path = "../../src/threads.rs"]
@@ -12,15 +10,8 @@ mod threads;
 /// The lines of one of the two files, or the text of an error; made once.
 fn text(few: bool) -> &'static str {
     static TEXTS: [OnceLock<String>; 2] = [OnceLock::new(), OnceLock::new()];
-    let sums = || -> azulejo::Result<List> {
-        let context = threads::context()?;
-        if !few {
-            return all::sums(&context);
-        }
-        let mut list = List::default();
-        all::grids(&context, true, &mut list)?;
-        Ok(list)
-    };
+    let take = if few { all::few_sums } else { all::sums };
+    let sums = || take(&*threads::context()?);
     TEXTS[usize::from(few)].get_or_init(|| sums().map_or_else(|error| error.to_string(), |list| list.to_string()))
 }
 
