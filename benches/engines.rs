@@ -8,7 +8,7 @@
 #[allow(dead_code)]
 mod meshes;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use azulejo::mesh::Mesh;
@@ -48,7 +48,7 @@ fn engines(criterion: &mut Criterion) {
 
 /// The meshes of the table that can be had here.
 fn table_meshes() -> Vec<(String, Arc<Mesh>)> {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let dragon = std::env::var_os("AZULEJO_BENCH_DRAGON").map_or(root.join("out/dragon.ply"), PathBuf::from);
     let files = [("bunny", root.join("../shared/meshes/bunny.obj")), ("dragon", dragon)];
     let loaded = files.into_iter().filter_map(|(name, path)| Some((name.into(), Arc::new(Mesh::load(path).ok()?))));

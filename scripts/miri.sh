@@ -2,9 +2,8 @@
 # Tests the FFI boundary under Miri: its unit tests, and each call of the C ABI that needs neither Embree nor a second
 # thread.
 #
-#   scripts/miri.sh [--long]
+#   scripts/miri.sh
 #
-# Without --long those calls alone that take it less than a minute: AddressSanitizer sees the others in each run.
 # Needs a nightly compiler with its component miri; without it nothing is done, which is said.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -17,7 +16,4 @@ fi
 # Code that asks for files gets an error inside. Miri ignores optimisations and warns of them.
 export MIRIFLAGS=-Zmiri-isolation-error=hide CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_INCREMENTAL=0
 cargo +nightly miri test --quiet --locked --package azulejo-c --lib --target-dir target/miri
-lengthy=(--exact --skip planes --skip surfaces --skip points)
-[ "${1:-}" != --long ] || lengthy=()
-cargo +nightly miri test --quiet --locked --manifest-path fuzz/Cargo.toml --package azulejo-c-abi --target-dir target/miri \
-    -- "${lengthy[@]}"
+cargo +nightly miri test --quiet --locked --manifest-path fuzz/Cargo.toml --package azulejo-c-abi --target-dir target/miri

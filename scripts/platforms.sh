@@ -1,25 +1,21 @@
 #!/usr/bin/env bash
 # Tests azulejo, without Embree, on processors and systems other than this machine's, which are emulated.
 #
-#   scripts/platforms.sh [--long] [x86-levels] [arm64] [windows]
+#   scripts/platforms.sh [x86-levels] [arm64] [windows]
 #
-# x86-levels: the sums on a processor of x86 without AVX; with --long on one without AVX-512, too, whose vector code the unit
-# tests run on this machine. Needs no build of its own.
-# arm64: the libraries and the command line are type-checked. With --long qemu runs C and C++ programs that link the shared
-# library of CMake's build, and the sums.
-# windows: the same. With --long DLL and command line are built by MinGW's compiler, and wine runs C and C++ programs, the
-# command line and the sums.
-# The sums are those of small sets, with --long all.
+# x86-levels: the sums on processors of x86 without AVX, and without AVX-512, whose vector code the unit tests run on this
+# machine.
+# arm64: qemu runs C and C++ programs that link the shared library of CMake's build, and the sums.
+# windows: DLL and command line are built by MinGW's compiler; wine runs C and C++ programs, the command line and the sums.
 # All of it, if none is named. Rust's standard library for a target is installed by rustup; where that cannot be had,
 # nightly builds it from its sources; without those the target is skipped, which is said.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 arm=aarch64-unknown-linux-gnu windows=x86_64-pc-windows-gnu
-long=no targets=()
+targets=()
 for argument; do
     case $argument in
-        --long) long=yes ;;
         x86-levels | arm64 | windows) targets+=("$argument") ;;
         *)
             sed -n '4s/^# *//p' "$0" >&2
@@ -31,10 +27,6 @@ done
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-sums_filter=small
-[ $long = no ] || sums_filter=
-
-is_long() { [ $long = yes ]; }
 
 # Nothing waits for builds for this machine, which may run at the same time.
 build=target/platforms
@@ -74,14 +66,13 @@ sums_program() {
 }
 
 x86_levels() {
-    local program level levels=(Nehalem)
-    ! is_long || levels+=(Haswell)
+    local program level
     [ "$(uname -m)" = x86_64 ] || { echo "SKIPPED: levels of x86, on another processor" && return; }
     program=$(sums_program cargo build --quiet --locked --no-default-features)
-    for level in "${levels[@]}"; do
+    for level in Nehalem Haswell; do
         echo "sums on $level"
         # Qemu names each feature that it does not emulate.
-        qemu-x86_64-static -cpu $level "$program" --quiet $sums_filter 2>&1 | grep -v "TCG doesn't support"
+        qemu-x86_64-static -cpu $level "$program" --quiet 2>&1 | grep -v "TCG doesn't support"
     done
 }
 
@@ -111,28 +102,18 @@ programs() {
     done
 }
 
-# All that a run that is not long does with the target at hand.
-type_check() {
-    run_cargo check --package azulejo-c --package azulejo-cli
-    echo "SKIPPED: programs on $target (--long)"
-}
-
 on_arm64() { qemu-aarch64-static -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$PWD/$library" "$@"; }
 
 arm64() {
     local target=$arm program sources library=$build/arm64/lib
     has_std $target || return 0
-    if ! is_long; then
-        type_check
-        return
-    fi
     program=$(sums_program run_cargo build --package azulejo-c)
     layout_libraries arm64 -D CMAKE_SYSTEM_NAME=Linux -D CMAKE_SYSTEM_PROCESSOR=aarch64 \
         -D CMAKE_C_COMPILER=aarch64-linux-gnu-gcc
     # What has a scene of Embree's, and what times threads.
     mapfile -t sources < <(programs host.c num_threads.c)
     run_programs on_arm64 aarch64-linux-gnu-gcc aarch64-linux-gnu-g++ "$library" "" "${sources[@]}"
-    on_arm64 "$program" --quiet $sums_filter
+    on_arm64 "$program" --quiet
 }
 
 to_windows() { tr / '\\' <<<"Z:$1"; }
@@ -187,10 +168,6 @@ windows() {
         echo "SKIPPED: $target, whose standard library nightly cannot build without MinGW's dlltool"
         return
     fi
-    if ! is_long; then
-        type_check
-        return
-    fi
     layout_libraries windows -D CMAKE_SYSTEM_NAME=Windows -D CMAKE_SYSTEM_PROCESSOR=x86_64 \
         -D CMAKE_C_COMPILER=x86_64-w64-mingw32-gcc
     gather_dlls
@@ -199,7 +176,7 @@ windows() {
     mapfile -t sources < <(programs host.c num_threads.c faults.c files.c frozen.c memory.c throwing.cpp)
     run_programs on_windows x86_64-w64-mingw32-gcc x86_64-w64-mingw32-g++ $build/windows/lib .exe "${sources[@]}"
     command_line
-    on_windows "$(sums_program run_cargo build)" --quiet $sums_filter
+    on_windows "$(sums_program run_cargo build)" --quiet
 }
 
 for target in "${targets[@]}"; do

@@ -13,11 +13,9 @@ set -euo pipefail
 packages=(libembree-dev libclang-dev g++ make cmake pkg-config)
 # Meshes of tests/all/mesh_corpus.rs.
 test_packages=(assimp-testmodels)
-all_packages=(valgrind debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev
-              doxygen qemu-user-static g++-aarch64-linux-gnu python3-venv
-              chromium)
+all_packages=(debootstrap debian-archive-keyring dpkg-dev file openmpi-bin libopenmpi-dev doxygen python3-venv chromium)
 # What only a long run needs; the libraries for the packages bpy and Open3D, which open no window.
-long_packages=(g++-mingw-w64-x86-64-posix wine64 patch
+long_packages=(valgrind qemu-user-static g++-aarch64-linux-gnu g++-mingw-w64-x86-64-posix wine64 patch
                libatomic1 libegl1 libgl1 libsm6 libusb-1.0-0 libxfixes3 libxi6 libxkbcommon0 libxrender1)
 
 die() {

@@ -3,12 +3,12 @@
 #
 #   scripts/test.sh          what a change must pass on its author's machine: format, lints, all Rust tests, the C
 #                            package, C and C++ programs, the code in README and guides
-#   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, sanitizers, valgrind, Miri, fuzzing,
-#                            Python, JavaScript, the site, Embree 4.3, packages in clean roots; other systems are type-checked
-#   scripts/test.sh --long   once a week: also fresh seeds for the property tests, a minute of fuzzing for each target,
-#                            guarantees that are broken to see a test fail, ThreadSanitizer, valgrind on all programs, all
-#                            calls under Miri, WebAssembly with threads, the site in a browser, other processors and
-#                            systems, all Rust tests and sums everywhere
+#   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, AddressSanitizer, fuzzing,
+#                            Python, JavaScript, the links of the site, packages in a clean root of this release
+#   scripts/test.sh --long   once a week: also the library as it is released, other Embrees, processors and systems, a
+#                            library without Embree, valgrind, Miri, ThreadSanitizer, WebAssembly with threads, the site in a
+#                            browser, fresh seeds for the property tests, a minute of fuzzing for each target, guarantees that
+#                            are broken to see a test fail
 #
 # The first needs root only for packages that are missing (scripts/setup.sh lists them), the others for their Debian roots.
 # What fails often comes first: every workspace and program is compiled before any long stage. The last lines list the cost
@@ -33,6 +33,9 @@ if_long() { ! is_long || echo --long; }
 # The cases of the property tests: what fails is due to what has changed.
 export PROPTEST_RNG_SEED=${PROPTEST_RNG_SEED:-1}
 package=target/package
+# The C library of a run that is not long is that of the profile dev, compiled together with packages whose tests have run:
+# with the same features, so that cargo finds its work done.
+is_long || export AZULEJO_CARGO_FLAGS="--locked;--package;azulejo;--package;azulejo-cli"
 release=$(. /etc/os-release && echo "$ID ${VERSION_ID:-}")
 
 work=$(mktemp -d)
@@ -82,8 +85,15 @@ fresh_seeds() {
     done
 }
 
+# Studies and benchmarks compile the library with features of its own, once more: their tests are for a long run.
+rust_tests() {
+    local others=(--exclude azulejo-studies --exclude azulejo-benches)
+    ! is_long || others=()
+    cargo test --locked --workspace "${others[@]}"
+}
+
 debian_roots() {
-    scripts/debian13.sh true
+    ! is_long || scripts/debian13.sh true
     ! has_clean_root || scripts/clean-root.sh "${release#debian }" scripts true
 }
 
@@ -93,18 +103,15 @@ sanitized_address() {
     tests/c/sanitized.sh address
 }
 
-# Packages of the registry that the same compiler has compiled are taken over, so that the library is of the profile dev. Of
-# the Rust tests only those of conformance run, of the sums those of small sets, but in a long run all: the others would
-# repeat what they did on the machine.
+# Packages of the registry that the same compiler has compiled are taken over, so that the library is of the profile dev.
 on_debian13() {
     scripts/debian13.sh bash -ec '
         scripts/share-packages.sh target/debug /var/cache/package/build/cargo/debug
         tests/c/package.sh --brief --dev --keep /var/cache/package
-        conformance() { cargo test --offline --locked --target-dir /var/cache/package/build/cargo "$@"; }
-        conformance --package azulejo-conformance --package azulejo-embree-sys -- --skip has_the_sums_of_the_file
-        AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix "$@"
-        tests/c/debs.sh --dev /var/cache/package' - $(is_long || echo --brief)
-    ! is_long || scripts/debian13.sh bash -ec '
+        cargo test --offline --locked --target-dir /var/cache/package/build/cargo --package azulejo-conformance \
+            --package azulejo-embree-sys
+        AZULEJO_ROUNDS=10 tests/c/run.sh /var/cache/package/prefix
+        tests/c/debs.sh --dev /var/cache/package
         scripts/share-packages.sh target/debug /var/cache/azulejo/debug
         cargo test --offline --locked --workspace'
 }
@@ -112,10 +119,14 @@ on_debian13() {
 # Stages that wait for the network or use one core, then those in the Debian 13 root, which take over what was compiled.
 lane() {
     stage "Debian roots" debian_roots
-    stage "FFI boundary under Miri" scripts/miri.sh $(if_long)
-    ! is_long || stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
-    stage "arm64 and Windows" scripts/platforms.sh $(if_long) arm64 windows
     stage "Fuzzing; C and C++ programs with AddressSanitizer in Rust, too" sanitized_address
+    ! is_long || slow_lane
+}
+
+slow_lane() {
+    stage "FFI boundary under Miri" scripts/miri.sh
+    stage "C programs with ThreadSanitizer in Rust, too" tests/c/sanitized.sh thread
+    stage "arm64 and Windows" scripts/platforms.sh arm64 windows
     until [ -e "$work/packaged" ]; do sleep 1; done
     stage "Rust tests, package, C and C++ programs on Embree 4.3, in a Debian 13 root" on_debian13
     stage "Debian packages: installed, used and removed in a clean Debian 13 root" scripts/clean-root.sh 13 \
@@ -130,7 +141,7 @@ early_stages() {
 quick_stages() {
     stage "What is missing" scripts/setup.sh --tests
     early_stages
-    stage "Rust tests" cargo test --locked --workspace
+    stage "Rust tests" rust_tests
     stage "Package: install, find_package, pkg-config" tests/c/package.sh --quick --keep target/quick
     stage "README and guides: their programs and commands" \
         tests/c/pages.sh target/quick/prefix README.md docs/integrating.md docs/porting.md
@@ -144,23 +155,26 @@ all_stages() {
     behind lane
     early_stages
     stage "Documentation" scripts/docs.sh
-    stage "Rust tests on this machine's Embree" cargo test --locked --workspace
+    stage "Rust tests on this machine's Embree" rust_tests
     stage "Package: install, find_package, pkg-config, add_subdirectory, shared and static, MPI ranks" \
-        tests/c/package.sh --keep $package
+        tests/c/package.sh $(is_long || echo --dev --share) --keep $package
     touch "$work/packaged"
     stage "README and guides: their programs and commands" \
         tests/c/pages.sh $package/prefix README.md docs/integrating.md docs/porting.md
-    stage "C and C++ programs: plain, under valgrind" \
-        tests/c/run.sh $package/prefix --valgrind$(is_long || echo -brief)
-    stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh $(if_long)
-    stage "Sums on other levels of x86" scripts/platforms.sh $(if_long) x86-levels
+    if is_long; then
+        stage "C and C++ programs: plain, under valgrind" tests/c/run.sh $package/prefix --valgrind
+        stage "Without Embree: sums, meshes, C and C++ programs on nothing but libc" tests/c/without_embree.sh
+        stage "Sums on other levels of x86" scripts/platforms.sh x86-levels
+    else
+        stage "C and C++ programs" env AZULEJO_ROUNDS=10 tests/c/run.sh $package/prefix
+    fi
     stage "Python: a wheel, installed and tested in a clean environment" bindings/python/test.sh $(if_long)
     stage "Packages of crates, recipes for vcpkg, conan and conda, workflows" packaging/test.sh $(if_long)
     stage "JavaScript: WebAssembly in Node and in headless Chromium" bindings/js/test.sh $(if_long)
     stage "Blender extension: its manifest, and that its files compile" integrations/blender/test.sh --brief
     stage "Scenes in USD and glTF, by the validators of these formats" integrations/formats/test.sh
     stage "Site: links and programs of the playground" site/test.sh $(if_long)
-    stage "Debian packages: what they hold and depend on" tests/c/debs.sh $package
+    stage "Debian packages: what they hold and depend on" tests/c/debs.sh $(is_long || echo --dev) $package
     if has_clean_root; then
         stage "Debian packages: installed, used and removed in a clean root of $release" \
             scripts/clean-root.sh "${release#debian }" $package/debs tests/c/installed.sh

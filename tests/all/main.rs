@@ -63,6 +63,7 @@ mod remesh;
 mod strips;
 mod surface_relax;
 mod thin;
+mod verdicts;
 mod volume;
 mod volume_adaptive;
 mod volume_classes;

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Tests the CMake package: builds and installs azulejo into a temporary prefix and uses it as other projects do.
 #
-#   tests/c/package.sh [--brief] [--dev] [--quick] [--keep DIR]
+#   tests/c/package.sh [--brief] [--dev] [--share] [--quick] [--keep DIR]
 #
 # With --keep the library is built and installed in DIR (DIR/build, DIR/prefix), which stays. With --brief it is used in one
-# place only; with --dev it is that of cargo's profile dev, in the folder DIR/build/cargo. --quick is both, in the project's
-# target folder, and without MPI.
+# place only; with --dev it is that of cargo's profile dev, and with --share in the project's target folder, where the tests
+# have compiled it, instead of DIR/build/cargo. --quick is all three, and without MPI.
 # examples_c outside the tree, shared and static, through find_package; plane.c through pkg-config; as a guest in other
 # programs (guest.sh); all again from a prefix that was moved; through add_subdirectory; Embree is loaded on use (lazy.sh);
 # debugging information is beside the library; licences are installed; and a version that is not there is refused.
@@ -14,10 +14,11 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-base=$work quick=no brief=no profile=release
+base=$work quick=no brief=no share=no profile=release
 while [ $# -gt 0 ]; do
     case $1 in
-        --quick) quick=yes brief=yes profile=dev ;;
+        --quick) quick=yes brief=yes share=yes profile=dev ;;
+        --share) share=yes ;;
         --brief) brief=yes ;;
         --dev) profile=dev ;;
         --keep)
@@ -38,7 +39,7 @@ prefix=$base/prefix
 . "$root/tests/c/version.sh"
 
 install_library() {
-    if [ $quick = yes ]; then
+    if [ $share = yes ]; then
         mkdir -p "$base/build" && ln -sfn "$root/target" "$base/build/cargo"
     fi
     cmake -S "$root" -B "$base/build" -DAZULEJO_CARGO_PROFILE=$profile \
@@ -55,7 +56,8 @@ add_subdirectory("$root/examples_c" examples)
 END
     # The library is the one that was built above: cargo finds its work done.
     mkdir -p "$work/host-build/azulejo" && ln -sfn "$base/build/cargo" "$work/host-build/azulejo/cargo"
-    cmake -S "$work/host" -B "$work/host-build" -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" &&
+    cmake -S "$work/host" -B "$work/host-build" -DAZULEJO_CARGO_PROFILE=$profile \
+        -DAZULEJO_CARGO_FLAGS="${AZULEJO_CARGO_FLAGS:---locked}" &&
         cmake --build "$work/host-build" -j "${CARGO_BUILD_JOBS:-$(nproc)}"
 }
 

@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
 # Tests the C and C++ interface of an installed azulejo.
 #
-#   tests/c/run.sh PREFIX [--brief | --valgrind | --valgrind-brief]
+#   tests/c/run.sh PREFIX [--valgrind]
 #
 # The headers compile without a warning in every standard, and in C++ without exceptions and RTTI; the shared library
 # exports what symbols.txt says and has its SONAME; the test programs pass, plainly and with --valgrind also under valgrind,
-# as many at a time as there are cores; with --brief only sums.c and those that name Embree or threads, for a library that
-# differs from one that has passed in its Embree; with --valgrind-brief not under valgrind where that takes long and the program
-# does not test the boundary. Sanitizers, which run all programs, are those of sanitized.sh.
+# as many at a time as there are cores. AZULEJO_ROUNDS=10 makes the longest ones shorter. Sanitizers, which run all programs,
+# are those of sanitized.sh.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -18,16 +17,10 @@ usage() {
 [ $# -ge 1 ] && [ -d "$1" ] || usage
 prefix=$(cd "$1" && pwd)
 shift
-modes=(plain) unwatched=() brief=no
+modes=(plain)
 for option; do
     case $option in
-        --brief) brief=yes ;;
         --valgrind) modes+=(valgrind) ;;
-        --valgrind-brief)
-            modes+=(valgrind)
-            unwatched=(adaptive.c analysis.c classes_plane.c context_watch.c density.c edit.c kept.c memory.c merge.c)
-            unwatched+=(mesh_density.c progress.c reports.c sums.c volume.c windows.c relaxation.cpp statistics.cpp)
-            ;;
         *) usage ;;
     esac
 done
@@ -113,8 +106,6 @@ programs=()
 for source in "$here"/*.c "$here"/*.cpp; do
     case ${embree:-none}-$(basename "$source") in
         none-host.c | [34]-without.c) continue ;;
-        *-sums.c) ;;
-        *) [ $brief = no ] || grep -qiE 'embree|num_threads' "$source" || continue ;;
     esac
     programs+=("$source")
 done
@@ -142,8 +133,7 @@ apart step "num_threads.c (plain)" run_plain num_threads.c
 for mode in "${modes[@]}"; do
     for source in "${programs[@]}"; do
         name=$(basename "$source")
-        [ $name = num_threads.c ] || { [ $mode = valgrind ] && [[ " ${unwatched[*]} " == *" $name "* ]]; } ||
-            beside step "$name ($mode)" "run_$mode" "$source"
+        [ $name = num_threads.c ] || beside step "$name ($mode)" "run_$mode" "$source"
     done
 done
 all_done

@@ -1,6 +1,7 @@
 //! The pages of `docs/` as they are committed: whether their verdicts and sentences follow from their tables, and whether
 //! pages agree.
 
+#[path = "../../studies/tests/recomputed/mod.rs"]
 mod recomputed;
 
 use std::fs;
@@ -9,13 +10,13 @@ use std::path::Path;
 use recomputed::{Recomputed, Table, numbers, tables};
 
 fn page(name: &str) -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(name)).unwrap()
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(name)).unwrap()
 }
 
 /// The names of the pages that studies wrote, with those of the archive.
 fn pages() -> Vec<String> {
     let names = ["", "archive/"].map(|folder| {
-        let files = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(folder)).unwrap();
+        let files = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(folder)).unwrap();
         files.map(move |file| format!("{folder}{}", file.unwrap().file_name().into_string().unwrap()))
     });
     let is_written = |name: &String| name.ends_with(".md") && page(name).contains("\nWritten by `");
