@@ -18,6 +18,10 @@ const SHORTEST: f64 = 9.0;
 /// Darts also fall around a block, up to its smallest radius, if no radius there is below this share of it.
 const RIVALS: f64 = 0.75;
 
+/// A tree has no more nodes than there may be samples, divided by this: while a list of nodes grows, it takes three times the
+/// bytes of a node, of which a sample has one and a half times as many.
+const SAMPLES_PER_NODE: f64 = 4.0;
+
 /// The nodes after which the call can be cancelled.
 const NODES_PER_REPORT: usize = 1024;
 
@@ -68,7 +72,8 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The blocks of a lattice, which depend on the seed. Fails if there are more samples than `limit`.
+    /// The blocks of a lattice, which depend on the seed. Fails if there are more samples than `limit`, or if radii that change
+    /// fast ask for blocks without end.
     pub fn new(job: &Job, lattice: &Lattice<3>, field: &RadiusField, seed: u64, limit: f64) -> Result<Self> {
         let (nodes, mut blocks) = tree(job, lattice, field, seed, limit)?;
         let images = images(lattice);
@@ -94,7 +99,8 @@ impl Blocks {
     }
 }
 
-/// The tree and its leaves.
+/// The tree and its leaves. Too many samples are refused as soon as upper bounds of the radius say so: it grows level by level,
+/// and has no leaf that could be counted before it is as large as memory.
 fn tree(
     job: &Job,
     lattice: &Lattice<3>,
@@ -105,13 +111,22 @@ fn tree(
     let rect = lattice.rect();
     let root = Node { rect, key: hash(seed, Draw::Split, &[]), bounds: field.bounds, next: Next::Block(0) };
     let (mut nodes, mut blocks, mut next, mut expected) = (vec![root], Vec::new(), 0, 0.0);
+    let mut fewest = fewest_samples(&rect, field.bounds);
     while next < nodes.len() {
         if next.is_multiple_of(NODES_PER_REPORT) {
             job.report(0.0)?;
         }
-        let Node { rect, key, bounds, .. } = nodes[next];
-        let (bounds, samples) = field.in_box(&rect, bounds);
+        let Node { rect, key, bounds: around, .. } = nodes[next];
+        let (bounds, samples) = field.in_box(&rect, around);
         field.check()?;
+        fewest += fewest_samples(&rect, bounds) - fewest_samples(&rect, around);
+        if fewest > limit {
+            return Err(field.too_many());
+        }
+        if nodes.len() as f64 > limit / SAMPLES_PER_NODE {
+            field.exceed_work(rect.min);
+            field.check()?;
+        }
         nodes[next].bounds = bounds;
         if let Some(halves) = split(&rect, key, bounds[0]) {
             nodes[next].next = Next::Halves([0, 1].map(|half| (nodes.len() + half) as u32));
@@ -130,10 +145,9 @@ fn tree(
     Ok((nodes, blocks))
 }
 
-/// Refuses largest radii that alone ask for more samples than `limit`.
-pub fn check_largest(lattice: &Lattice<3>, field: &RadiusField, limit: f64) -> Result<()> {
-    let volume: f64 = lattice.size.iter().map(|&size| f64::from(size) / field.bounds[1]).product();
-    if MAXIMAL_DENSITY_IN_SPACE * volume > limit { Err(field.too_many()) } else { Ok(()) }
+/// The number of samples of a box that has the largest radius of its bounds throughout.
+fn fewest_samples(rect: &Rect<3>, [_, most]: [f64; 2]) -> f64 {
+    MAXIMAL_DENSITY_IN_SPACE * (0..3).map(|axis| f64::from(rect.length(axis)) / most).product::<f64>()
 }
 
 /// The children of a node; none if it is a block: a node is split across its longest side as long as that is long enough.
@@ -251,4 +265,33 @@ fn octaves(blocks: &[Block]) -> Vec<Vec<Vec<u32>>> {
         octaves.push(waves);
     }
     octaves
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+    use crate::job::Context;
+    use crate::points::Domain;
+    use crate::volume::adaptive::field::Source;
+    use crate::volume::adaptive::options::Radius;
+
+    /// The error of the tree of a radius that is the same everywhere, of which the bounds do not say so.
+    fn refusal(radius: f64, slope: f64) -> Error {
+        let domain = Domain::unit(Boundary::Periodic);
+        let at = |_: [f64; 3]| radius;
+        let source = Source::new(&domain, Radius::Function { at: &at, smallest: 1e-5, largest: 1.0, slope }).unwrap();
+        let lattice = Lattice::of_any_size(&domain, 1e-5).unwrap();
+        let field = RadiusField::new(&source, &lattice).unwrap();
+        let context = Context::new(1).unwrap();
+        context.run(None, |job| tree(job, &lattice, &field, 0, 4e3).map(|(nodes, _)| nodes.len())).unwrap_err()
+    }
+
+    #[test]
+    fn trees_without_end_are_refused() {
+        let too_small = refusal(1e-3, 1e-3).to_string();
+        assert!(too_small.starts_with("radius_function: asks for more samples"), "{too_small}");
+        let too_steep = refusal(0.1, 5.0).to_string();
+        assert!(too_steep.starts_with("slope") && too_steep.contains("change too fast"), "{too_steep}");
+    }
 }
