@@ -145,6 +145,11 @@ fn tree(
     Ok((nodes, blocks))
 }
 
+/// Refuses largest radii that alone ask for more samples than `limit`, before any work.
+pub fn check_largest(lattice: &Lattice<3>, field: &RadiusField, limit: f64) -> Result<()> {
+    if fewest_samples(&lattice.rect(), field.bounds) > limit { Err(field.too_many()) } else { Ok(()) }
+}
+
 /// The number of samples of a box that has the largest radius of its bounds throughout.
 fn fewest_samples(rect: &Rect<3>, [_, most]: [f64; 2]) -> f64 {
     MAXIMAL_DENSITY_IN_SPACE * (0..3).map(|axis| f64::from(rect.length(axis)) / most).product::<f64>()

@@ -5,7 +5,7 @@ use crate::job::{Context, Progress};
 use crate::memory;
 use crate::plane::{Lattice, float_spacing};
 use crate::points::{Domain, Points, finest_radius};
-use crate::volume::adaptive::blocks::Blocks;
+use crate::volume::adaptive::blocks::{Blocks, check_largest};
 use crate::volume::adaptive::field::{RadiusField, Source};
 use crate::volume::adaptive::ground::Ground;
 use crate::volume::adaptive::options::Radius;
@@ -41,6 +41,9 @@ pub fn complete(
     let field = &RadiusField::new(&source, lattice)?;
     let held = memory::available().map_or(f64::INFINITY, |bytes| bytes / BYTES_PER_SAMPLE);
     let limit = f64::from(u32::MAX).min(held);
+    if body.is_none() {
+        check_largest(lattice, field, limit)?;
+    }
     let samples = context.run(progress, |job| {
         let blocks = Blocks::new(&job.part(0.0, BLOCKS), lattice, field, seed, limit)?;
         // A body has the share of its box that it would have with one radius.
