@@ -91,4 +91,4 @@ esac
 command -v apt-get >/dev/null || die "no apt-get here: install Embree (4, or 3.13), libclang, a C++ compiler and CMake"
 check_rust
 install_missing "${packages[@]}"
-case "${1:-}" in --all | --long) add_components ;; esac
+[ "${1:-}" != --long ] || add_components

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Tests the project, from a fresh machine.
 #
-#   scripts/test.sh          what a change must pass on its author's machine: format, lints, all Rust tests, the C
+#   scripts/test.sh          what a change must pass on its author's machine: format, lints, Rust tests, the C
 #                            package, C and C++ programs, the code in README and guides
 #   scripts/test.sh --all    what a change must pass to land (.ci/run): also documentation, AddressSanitizer, fuzzing,
 #                            Python, JavaScript, the links of the site, packages in a clean root of this release
-#   scripts/test.sh --long   once a week: also the library as it is released, other Embrees, processors and systems, a
-#                            library without Embree, valgrind, Miri, ThreadSanitizer, WebAssembly with threads, the site in a
-#                            browser, fresh seeds for the property tests, a minute of fuzzing for each target, guarantees that
-#                            are broken to see a test fail
+#   scripts/test.sh --long   once a week: also the library as it is released, Rust tests of the studies, other Embrees,
+#                            processors and systems, a library without Embree, valgrind, Miri, ThreadSanitizer, WebAssembly
+#                            with threads, the site in a browser, fresh seeds for the property tests, a minute of fuzzing
+#                            for each target, guarantees that are broken to see a test fail
 #
 # The first needs root only for packages that are missing (scripts/setup.sh lists them), the others for their Debian roots.
 # What fails often comes first: every workspace and program is compiled before any long stage. The last lines list the cost

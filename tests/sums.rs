@@ -2,7 +2,7 @@
 //! `tests/sums.txt` was written. Only hits of Embree on global projectors are left out.
 //!
 //! Most calls are those of a grid: each sampler by all that can be asked of it, on small sets, whose sums are in
-//! `tests/few_sums.txt` and which an emulated processor makes in seconds (`scripts/platforms.sh`), and on large ones. The
+//! `tests/few_sums.txt` and which WebAssembly makes in seconds (`bindings/js/test.sh`), and on large ones. The
 //! others are of domains, meshes and options that stand for themselves.
 //!
 //! A change that is not meant to alter a set leaves the files as they are. One that does writes them anew, and says so in the

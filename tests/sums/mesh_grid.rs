@@ -25,7 +25,7 @@ struct Size {
     count: usize,
 }
 
-/// Sets that an emulated processor makes in a moment.
+/// Sets that WebAssembly makes in a moment.
 const SMALL: Size = Size { columns: 24, rows: 16, filled: 0.1, coarse: 0.15, count: 300 };
 const LARGE: Size = Size { columns: 40, rows: 24, filled: 0.018, coarse: 0.08, count: 1500 };
 

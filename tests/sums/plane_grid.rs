@@ -26,7 +26,7 @@ struct Size {
     given: usize,
 }
 
-/// Sets that an emulated processor makes in a moment.
+/// Sets that WebAssembly makes in a moment.
 const SMALL: Size = Size { tiled: 0.009, leaf_size: 6.0, untiled: 0.04, count: 300, given: 40 };
 const LARGE: Size = Size { tiled: 0.003, leaf_size: 20.0, untiled: 0.012, count: 4000, given: 700 };
 
