@@ -30,6 +30,7 @@
  *   a plane under a brush: erase, refill, undo    azulejo_plane_create, _erase, _refill
  *   a rectangle with a density, such as an image  azulejo_dcr_scatter, azulejo_dcr_relax_density
  *   samples of a mesh                             azulejo_psp_sample
+ *   many instances of some meshes                 azulejo_psp_sample_instances
  *   a mesh whose radius or density varies         azulejo_psp_adaptive_sample, _with_density
  *   a mesh under a brush: erase, refill, undo     azulejo_psp_create, azulejo_psp_erase, _refill
  *   several kinds of things, such as plants       azulejo_kdrt_..., psp_..., volume_sample_classes

@@ -276,6 +276,13 @@ public:
     Span<const std::uint64_t> ids() const & noexcept { return array(azulejo_points_ids(get()), 1); }
     Span<const std::uint64_t> ids() const && = delete;
 
+    /// The index of the instance of each sample of psp_sample_instances; see
+    /// azulejo_points_instances.
+    Span<const std::uint32_t> instances() const & noexcept {
+        return array(azulejo_points_instances(get()), 1);
+    }
+    Span<const std::uint32_t> instances() const && = delete;
+
 private:
     template <class T>
     Span<const T> array(const T *data, std::size_t width) const noexcept {
@@ -1426,6 +1433,14 @@ Status check_given(const Positions &positions, Span<const double> clearances) {
                       std::to_string(positions.size()) + " positions");
 }
 
+/// The C handles of several owners.
+template <class Owner>
+std::vector<const typename Owner::Handle *> handles(Span<const Owner> owners) {
+    std::vector<const typename Owner::Handle *> handles;
+    for (const Owner &owner : owners) handles.push_back(owner.get());
+    return handles;
+}
+
 } // namespace detail
 
 // ---- Plane -------------------------------------------------------------------------------------
@@ -1700,6 +1715,19 @@ inline Status try_psp_sample_region(const Context &context, const Mesh &mesh,
     return detail::make(out, [&](auto **points) {
         return azulejo_psp_sample_region(context.get(), mesh.get(), &options, &region, points,
                                          report);
+    });
+}
+
+/// Samples of many instances of some meshes; see azulejo_psp_sample_instances.
+inline Status try_psp_sample_instances(const Context &context, Span<const Mesh> prototypes,
+                                       Span<const azulejo_instance> instances,
+                                       const PspOptions &options, Points &out,
+                                       PspReport *report = nullptr) {
+    const auto handles = detail::handles(prototypes);
+    return detail::make(out, [&](auto **points) {
+        return azulejo_psp_sample_instances(context.get(), handles.data(), handles.size(),
+                                            instances.data(), instances.size(),
+                                            sizeof(azulejo_instance), &options, points, report);
     });
 }
 
@@ -2269,14 +2297,6 @@ Status measured(const SpaceSet &set, Call call) {
     return measured_as<azulejo_space_set>(set, call);
 }
 
-/// The C handles of several owners.
-template <class Owner>
-std::vector<const typename Owner::Handle *> handles(Span<const Owner> owners) {
-    std::vector<const typename Owner::Handle *> handles;
-    for (const Owner &owner : owners) handles.push_back(owner.get());
-    return handles;
-}
-
 } // namespace detail
 
 /// See azulejo_plane_smallest_distance.
@@ -2708,6 +2728,14 @@ inline Points psp_sample_region(const Context &context, const Mesh &mesh,
                                 PspReport *report = nullptr) {
     Points points;
     check(try_psp_sample_region(context, mesh, options, region, points, report));
+    return points;
+}
+
+inline Points psp_sample_instances(const Context &context, Span<const Mesh> prototypes,
+                                   Span<const azulejo_instance> instances,
+                                   const PspOptions &options, PspReport *report = nullptr) {
+    Points points;
+    check(try_psp_sample_instances(context, prototypes, instances, options, points, report));
     return points;
 }
 

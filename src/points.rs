@@ -209,6 +209,8 @@ pub struct Points<const D: usize> {
     pub radii: Vec<f64>,
     /// The id of each sample, in an [`EditableSet`](crate::psp::EditableSet).
     pub ids: Vec<u64>,
+    /// The instance that each sample stands on ([`sample_instances`](crate::psp::sample_instances)).
+    pub instances: Vec<u32>,
 }
 
 impl<const D: usize> Default for Points<D> {
@@ -223,6 +225,7 @@ impl<const D: usize> Default for Points<D> {
             classes: Vec::new(),
             radii: Vec::new(),
             ids: Vec::new(),
+            instances: Vec::new(),
         }
     }
 }

@@ -62,6 +62,8 @@ pub(crate) enum Draw {
     Charts,
     /// Masks: the initial pattern of a channel, and what decides between pixels of equal energy.
     Mask,
+    /// PSP: the seed of an instance.
+    Instance,
 }
 
 /// The stream of random numbers of one place.

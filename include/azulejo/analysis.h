@@ -75,8 +75,7 @@ azulejo_status azulejo_plane_coverage(const azulejo_context *context,
 /// - out: the covering radius, too small by less than a billionth of it, and the number of gaps.
 ///   Every gap deeper than a millionth of the radius is found, however small, and the deepest in
 ///   any case. An empty set has an infinite radius and one gap.
-/// - O(count * log count) time, by subdivision, and some 1,000 cells per radius^3 of uncovered
-///   volume.
+/// - O(count * log count) time, by subdivision, and some 1,000 cells per uncovered radius^3.
 /// - Errors: AZULEJO_ERROR_TOO_LARGE also if more than about 25,000 * radius^3 is uncovered.
 azulejo_status azulejo_space_coverage(const azulejo_context *context,
                                       const azulejo_space_set *set,
@@ -111,8 +110,7 @@ typedef struct azulejo_plane_report {
     /// The covering radius: d_max / sqrt(3) for a hexagonal lattice; infinite for no point.
     double covering_radius;
     /// The bond order psi6: the mean over the points of |sum of exp(6 i angle)| / n for the n
-    /// directions of their Delaunay neighbours (Nelson and Halperin 1979). 1 for a lattice, 0.36
-    /// for Poisson.
+    /// directions of Delaunay neighbours (Nelson, Halperin 1979). 1 in a lattice, 0.36 at random.
     double bond_order;
     /// The number of Delaunay triangles; in a bounded domain without those across its edges.
     uint64_t triangles;
@@ -148,16 +146,14 @@ typedef struct azulejo_space_report {
 
 azulejo_status azulejo_plane_report_init(azulejo_plane_report *report, size_t struct_size);
 
-/// Measures points of the plane: spacing, cover, bond order and Delaunay triangles. O(count * log
-/// count) time.
+/// Measures points of the plane: spacing, cover, bonds, Delaunay triangles. O(count * log count).
 azulejo_status azulejo_plane_measure(const azulejo_context *context,
                                      const azulejo_plane_set *set,
                                      azulejo_plane_report *out);
 
 azulejo_status azulejo_space_report_init(azulejo_space_report *report, size_t struct_size);
 
-/// Measures points of a cuboid: spacing, conflicts and covering radius. O(count * log count +
-/// conflicts).
+/// Measures points of a cuboid: spacing, conflicts, cover. O(count * log count + conflicts).
 /// - radius: pairs of points that are nearer are conflicts; 0 counts none.
 azulejo_status azulejo_space_measure(const azulejo_context *context,
                                      const azulejo_space_set *set,
@@ -181,8 +177,7 @@ azulejo_status azulejo_plane_nearest_histogram(const azulejo_context *context,
 /// process; a hexagonal lattice has peaks at 1, sqrt(3), 2, ... d_max. In a bounded domain pairs
 /// are weighted to correct for the edges (Ohser and Stoyan 1981). O(count * (1 + reach^2)) time.
 /// - set: the points, at least 2.
-/// - reach: where the last bin ends, in units of d_max: above 0, and at most half of the width or
-///   height of the domain.
+/// - reach: where the last bin ends, in units of d_max: above 0, at most half of either side.
 /// - bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
 /// - out: an array of `bins` numbers: the mean of g in each bin.
 azulejo_status azulejo_plane_radial_distribution(const azulejo_context *context,
@@ -282,8 +277,7 @@ azulejo_status azulejo_spectrum_radial(const azulejo_spectrum *spectrum,
                                        size_t annulus_size,
                                        size_t *out_count);
 
-/// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.
-/// O(size^2).
+/// Measures a spectrum: effective Nyquist frequency, oscillation, contrast, peak. O(size^2).
 /// - width: that of the annuli of the radial mean, above 0; 0.05 suits some thousand points.
 /// - low, high: the range of frequencies for contrast and peak.
 azulejo_status azulejo_spectrum_measure(const azulejo_spectrum *spectrum,

@@ -192,6 +192,9 @@ const uint32_t *azulejo_points_classes(const azulejo_points *points);
 /// sample keeps its id as long as it stands, and no other one ever gets it.
 const uint64_t *azulejo_points_ids(const azulejo_points *points);
 
+/// The index of each sample's instance, from azulejo_psp_sample_instances: they never fall.
+const uint32_t *azulejo_points_instances(const azulejo_points *points);
+
 /// Frees the set with all its arrays.
 void azulejo_points_free(azulejo_points *points);
 
@@ -371,8 +374,7 @@ void azulejo_mesh_free(azulejo_mesh *mesh);
 /// - position: x y z of a place; for a sample, the floats that are returned.
 typedef double (*azulejo_radius_fn)(void *user, const double *position);
 
-/// A geometry of triangles in a scene that the program has made with Embree, which does not report
-/// sizes.
+/// A geometry of triangles in a scene that the program has made with Embree, which keeps no sizes.
 typedef struct azulejo_embree_geometry {
     uint32_t geometry_id; ///< Its number in the scene.
     uint32_t vertex_stride; ///< Bytes from one vertex to the next: a multiple of 4, at least 12.
@@ -391,13 +393,13 @@ typedef struct azulejo_embree_geometry {
 /// - scene: a committed RTCScene that no thread changes during the call, of the libembree that the
 ///   program has linked or, where it has linked none that all its libraries see, of the one that
 ///   libazulejo loads by its SONAME: otherwise, as for an Embree that is linked statically, the
-///   behaviour is undefined. Instances in it are not followed.
+///   behaviour is undefined. Instances are not followed: azulejo_psp_sample_instances takes them.
 /// - geometries: at least one, each attached to the scene as RTC_GEOMETRY_TYPE_TRIANGLE. If an id,
 ///   a size or a type is not that of the scene, the behaviour is undefined.
 /// - geometry_size: sizeof(azulejo_embree_geometry).
 /// - O(vertices + triangles).
-/// - Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE if the version is another one or
-///   not found.
+/// - Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE if it is another version or
+///   missing.
 azulejo_status azulejo_mesh_create_from_embree(void *scene,
                                                const azulejo_embree_geometry *geometries,
                                                size_t geometry_count,

@@ -96,8 +96,7 @@ azulejo_status azulejo_kdrt_sample(const azulejo_context *context,
 /// - O(samples in the window and within 22 radii along x and 18 along y) time and memory, and the
 ///   making of the pattern, of about 28,000 samples with the default leaves. In progressive order
 ///   each level, of radius R, adds about 12 R to the margin: in all about 56,000 samples at a
-///   quotient of 2^(1/8) or 15,000 at 2^(1/4) for each level. A domain that is not tiled is made as
-///   a whole.
+///   quotient of 2^(1/8) or 15,000 at 2^(1/4) for each level. A domain without tiles is made whole.
 /// - Errors: AZULEJO_ERROR_TOO_LARGE counts the samples of the window only; the domain may have as
 ///   many as floats can carry, up to about 10^11.
 azulejo_status azulejo_kdrt_sample_window(const azulejo_context *context,
@@ -211,8 +210,7 @@ void azulejo_kdrt_free(azulejo_kdrt *plane);
 /// them, within 2 or the square of `quotient` times that. It takes about 8 times the time.
 /// - options: `radius`, `count` and `measure_covering_radius` must be 0. `coarsest` is the radius
 ///   of the first level of each class, at least the largest own radius.
-/// - out: the samples with their classes, sorted by class, then by y and x, in progressive order by
-///   rank.
+/// - out: the samples with their classes, sorted by these, then by y and x or in order by rank.
 /// - O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
 ///   domain is a torus narrower than about 10 times the largest r_ij between classes of equal own
 ///   radii, these classes are filled by one thread, with 512 bytes per sample.
@@ -355,8 +353,7 @@ azulejo_status azulejo_plane_add_given(azulejo_plane *plane,
                                        uint64_t *first_id,
                                        azulejo_points **erased);
 
-/// Removes given samples by their ids: azulejo_plane_refill fills what they covered. O(given
-/// samples).
+/// Removes given samples by their ids: azulejo_plane_refill fills the gaps. O(given samples).
 azulejo_status azulejo_plane_remove_given(azulejo_plane *plane,
                                           const uint64_t *ids,
                                           size_t count);

@@ -31,8 +31,7 @@ typedef struct azulejo_psp_report {
     double fill_seconds; ///< The part of it in which gaps were searched for and filled.
     /// The radius of the set in units of d_max: about 0.78 for a maximal set, 0 for no samples.
     double rho;
-    /// If the call filled gaps: the fraction of the area that was uncovered before, an estimate.
-    /// Else -1.
+    /// If the call filled gaps: about the share of the area uncovered before. Else -1.
     double uncovered_before;
     double uncovered_after; ///< If the call filled gaps: 0, what is uncovered after it. Else -1.
     /// The radius of the set: the one asked for, or found for a count. No two samples are closer. 0
@@ -40,8 +39,7 @@ typedef struct azulejo_psp_report {
     /// radius at density 1.
     double radius;
     /// A bound of the covering radius, up to 6 float spacings, or where `radius` is a factor of
-    /// radii, of that factor: `radius` after gaps were filled, a little more for a count. -1:
-    /// unknown.
+    /// radii, of that factor: `radius` after a fill, a little more for a count. -1: unknown.
     double covering_radius;
 } azulejo_psp_report;
 
@@ -63,8 +61,7 @@ azulejo_status azulejo_psp_report_init(azulejo_psp_report *report, size_t struct
 #define AZULEJO_ENGINE_EMBREE 0 ///< Ray packets of Embree find where patterns meet the mesh.
 
 /// Triangles are rasterised over the patterns (thesis section 3.4.3). With local projectors the
-/// samples are those of Embree, to the bit, with global ones hits differ by up to 2e-7 of its
-/// diagonal.
+/// samples are Embree's, to the bit; with global ones hits differ by 2e-7 of its diagonal at most.
 #define AZULEJO_ENGINE_RASTERISER 1
 
 /// The default: the rasteriser for local projectors, which took the least time on every mesh
@@ -148,8 +145,7 @@ azulejo_status azulejo_psp_advance(azulejo_psp *psp,
 /// - Errors: AZULEJO_ERROR_CANCELLED: the set then holds what was finished, and can still grow.
 azulejo_status azulejo_psp_fill(azulejo_psp *psp, azulejo_psp_report *report);
 
-/// Copies the set, with normals, triangles and barycentrics; an edited one by rising ids.
-/// O(samples).
+/// Copies the set with normals, triangles and barycentrics, an edited one by ids. O(samples).
 azulejo_status azulejo_psp_points(const azulejo_psp *psp, azulejo_points **out);
 
 /// Frees the handle. Not from its own progress callback.
@@ -243,8 +239,7 @@ azulejo_status azulejo_psp_remove_given(azulejo_psp *psp, const uint64_t *ids, s
 /// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
 /// or given samples removed since the last refill. All samples that stand stay as they are.
 ///
-/// The new samples depend on `seed`, on the edits and on what stands around, up to a radius outside
-/// an erased region.
+/// The new samples depend on `seed`, on the edits and on what stands within a radius of a region.
 /// - added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 /// - O(surface in and around the edited regions + given samples); at first also O(triangles).
 azulejo_status azulejo_psp_refill(azulejo_psp *psp,
@@ -267,6 +262,35 @@ azulejo_status azulejo_psp_sample_region(const azulejo_context *context,
                                          const azulejo_region *region,
                                          azulejo_points **out,
                                          azulejo_psp_report *report);
+
+/// A mesh placed in the world.
+typedef struct azulejo_instance {
+    uint32_t prototype; ///< The index of its mesh among the prototypes.
+    uint32_t reserved; ///< Must be 0.
+    /// Three rows of four: their products with (x, y, z, 1) are the place of a vertex. Finite,
+    /// otherwise any. Of Embree it is RTC_FORMAT_FLOAT3X4_ROW_MAJOR.
+    double transform[12];
+} azulejo_instance;
+
+/// Samples instances of meshes in world space, as if all their triangles were one mesh: no conflict
+/// and no gap across instances. The triangles of one instance for each thread are in memory.
+/// - prototypes: `prototype_count` meshes, such as of azulejo_mesh_create_from_embree.
+/// - instances: of two that overlap the first one is sampled first.
+/// - instance_size: sizeof(azulejo_instance).
+/// - options: as in azulejo_psp_sample_region; `cosine` acts within each instance only.
+/// - out: by instance (azulejo_points_instances), with triangles and barycentrics of the prototypes
+///   and normals on the side that is their front.
+/// - report: counts and times of all instances together; `uncovered_before` is -1.
+/// - O(samples + triangles of all instances + instances * given samples) time.
+azulejo_status azulejo_psp_sample_instances(const azulejo_context *context,
+                                            const azulejo_mesh *const *prototypes,
+                                            size_t prototype_count,
+                                            const azulejo_instance *instances,
+                                            size_t instance_count,
+                                            size_t instance_size,
+                                            const azulejo_psp_options *options,
+                                            azulejo_points **out,
+                                            azulejo_psp_report *report);
 
 /// Options of azulejo_psp_adaptive_sample, which requires either `vertex_radii` or
 /// `radius_function`, and of azulejo_psp_adaptive_with_density.
@@ -362,8 +386,7 @@ typedef struct azulejo_mesh_density {
     size_t texture_count; ///< That of the vertices or of the corners.
     uint32_t by_corners; ///< 1: by corners, so that those along a seam differ. Default 0.
     uint32_t reserved; ///< Must be 0.
-    /// The radius at density 1, above 0, that of a maximal set of density 1; at d this over
-    /// sqrt(d).
+    /// The radius at density 1, above 0: that of a maximal set. At d it is this over sqrt(d).
     double radius;
     /// About how many samples the whole set has, above 0: fewer where parts of the surface are
     /// nearer to each other than the radius, and some more along boundaries. In progressive order

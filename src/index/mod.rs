@@ -6,6 +6,7 @@
 //! | what is within a radius | points in space whose number grows | [`Grid3`] |
 //! | what is within a radius | points in space that move | [`MovingGrid3`] |
 //! | what is nearest, however far | points in space, clustered or not, all known at first | [`PointTree`] |
+//! | which boxes meet a box | boxes, all known at first | [`BoxTree`] |
 //! | which items have this number | items that are known at first, of few numbers | [`Binned`] |
 //! | which items have this key | items that parallel tasks find, of any keys | [`Buckets`] |
 //! | a random item by its weight | triangles, cells | [`Weights`] |
@@ -25,6 +26,7 @@
 //! | `thin/tree` | each node knows the point of it that is farthest from all selected ones, and loses it |
 
 mod binned;
+mod box_tree;
 pub mod curve;
 mod grid3;
 mod moving_grid3;
@@ -33,6 +35,7 @@ mod sorted_grid;
 mod weighted;
 
 pub use binned::{Binned, Buckets};
+pub use box_tree::{BoxTree, Extent, meet};
 pub use grid3::{Grid3, smallest_distance};
 pub use moving_grid3::MovingGrid3;
 pub use point_tree::PointTree;

@@ -114,15 +114,19 @@ impl Mesh {
             return Err(Error::invalid("positions", reason));
         }
         check::finite("positions", "vertex", &positions)?;
-        let (triangles, mask) = (self.triangles.clone(), self.mask.clone());
-        let (area, bounds, kept) = Default::default();
-        let (positions, origin) = (Arc::new(positions), self.origin);
-        let mesh = Self { positions, triangles, normals: None, mask, area, bounds, origin, kept };
-        let mesh = mesh.measured();
+        let mesh = self.moved(positions);
         if mesh.area <= 0.0 && self.area > 0.0 {
             return Err(Error::invalid("positions", "the triangles have no area"));
         }
         Ok(mesh)
+    }
+
+    /// [`Mesh::deformed`] for finite positions, as many as vertices: it may have no area.
+    pub(crate) fn moved(&self, positions: Vec<[f32; 3]>) -> Self {
+        let (triangles, mask) = (self.triangles.clone(), self.mask.clone());
+        let (area, bounds, kept) = Default::default();
+        let (positions, origin) = (Arc::new(positions), self.origin);
+        Self { positions, triangles, normals: None, mask, area, bounds, origin, kept }.measured()
     }
 
     /// The mesh with a mask, in place of the one that it may have: triangles whose entry is false are left out. They

@@ -27,6 +27,7 @@ mod editable;
 mod fill;
 mod fragment;
 mod given;
+mod instances;
 mod levels;
 mod options;
 mod progressive;
@@ -38,9 +39,10 @@ pub use crate::levels::Amount;
 pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
+pub use instances::{Instance, sample_instances};
 pub use options::{
-    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, Options, Priority, ProjectionOptions, Projectors,
-    RegionOptions,
+    ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, InstanceOptions, Options, Priority, ProjectionOptions,
+    Projectors, RegionOptions,
 };
 pub use progressive::{Psp, project, sample};
 pub use report::Report;

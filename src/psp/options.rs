@@ -193,6 +193,10 @@ impl RegionOptions<'_> {
 
 setters!(RegionOptions<'a> { seed: u64, given: Given<'a, 3>, cosine: f64 });
 
+/// The options of [`sample_instances`](super::sample_instances), which are those of a region. Samples of different
+/// instances act on all sides, whatever the cosine.
+pub type InstanceOptions<'a> = RegionOptions<'a>;
+
 /// All options of sets of one radius or count, for interfaces without types: C, Python, JavaScript and the command line.
 /// In Rust, [`Options`] and [`ProjectionOptions`] say the same, and cannot be combined wrongly.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -59,6 +59,21 @@ pub struct Report {
 }
 
 impl Report {
+    /// Adds the counts and times of a part of the call.
+    pub(crate) fn add(&mut self, part: &Self) {
+        self.accepted += part.accepted;
+        self.iterations = self.iterations.max(part.iterations);
+        self.rays += part.rays;
+        self.hits += part.hits;
+        self.restart_conflicts += part.restart_conflicts;
+        self.darts += part.darts;
+        self.conflicts += part.conflicts;
+        self.prepare_seconds += part.prepare_seconds;
+        self.project_seconds += part.project_seconds;
+        self.merge_seconds += part.merge_seconds;
+        self.fill_seconds += part.fill_seconds;
+    }
+
     /// The report of a set that was filled from nothing with so many samples and darts.
     pub(crate) fn of_fill(samples: usize, darts: u64, stopwatch: &Stopwatch) -> Self {
         Self::default().with_fill(samples, darts, stopwatch)
@@ -74,8 +89,13 @@ impl Report {
     }
 }
 
-/// The relative radius of so many samples.
+/// The relative radius of so many samples on a mesh.
 pub fn rho(mesh: &Mesh, count: usize, radius: f64) -> f64 {
-    let hexagonal = (2.0 * mesh.area() / (3f64.sqrt() * count as f64)).sqrt();
+    rho_on(mesh.area(), count, radius)
+}
+
+/// The relative radius of so many samples on an area.
+pub fn rho_on(area: f64, count: usize, radius: f64) -> f64 {
+    let hexagonal = (2.0 * area / (3f64.sqrt() * count as f64)).sqrt();
     if count == 0 { 0.0 } else { radius / hexagonal }
 }

@@ -9,6 +9,7 @@ use std::fmt::Debug;
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::slice;
 use std::sync::{Arc, LazyLock};
 use std::thread::{self, ThreadId};
 
@@ -29,7 +30,9 @@ use azulejo::kdrt::{self, CountOptions, MergeOptions, Piece, Plane, Progressive}
 use azulejo::mask;
 use azulejo::maximal;
 use azulejo::mesh::Mesh;
-use azulejo::psp::{self, ClassOptions, FlatOptions, ProjectionOptions, Psp, RegionOptions, adaptive};
+use azulejo::psp::{
+    self, ClassOptions, FlatOptions, Instance, InstanceOptions, ProjectionOptions, Psp, RegionOptions, adaptive,
+};
 use azulejo::thin::{self, thin};
 use azulejo::volume;
 use azulejo::{Boundary, Classes, Context, Domain, Error, Given, Order, Points, Progress, Region, Result};
@@ -68,6 +71,13 @@ fn relaxed<T: Debug, R: Debug>(result: Result<(T, R)>, stopped: fn(&R) -> Stoppe
     let (points, report) = result?;
     if stopped(&report) == Stopped::Cancelled { Err(Error::Cancelled) } else { said(Ok((points, report))) }
 }
+
+const fn moved(x: f64) -> Instance {
+    Instance { prototype: 0, transform: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]] }
+}
+
+/// The mesh twice, which overlaps itself.
+const TWICE: [Instance; 2] = [moved(0.0), moved(0.3)];
 
 const UNIT: Domain = Domain { min: [0.0; 2], max: [1.0; 2], boundary: Boundary::Bounded };
 const TORUS: Domain = Domain { boundary: Boundary::Periodic, ..UNIT };
@@ -419,6 +429,14 @@ const SURFACE: &[Call] = &[
         },
         refused: &[("radius: ", |c, p| {
             samples(psp::sample_region(c, &MESH, &Region::EVERYWHERE, &RegionOptions::new(0.0), p))
+        })],
+    },
+    Call {
+        name: "psp::instances::sample_instances",
+        reports: 4,
+        run: |c, p| samples(psp::sample_instances(c, slice::from_ref(&MESH), &TWICE, &InstanceOptions::new(0.05), p)),
+        refused: &[("instances: [0]: ", |c, p| {
+            samples(psp::sample_instances(c, &[], &TWICE, &InstanceOptions::new(0.05), p))
         })],
     },
     Call {

@@ -57,6 +57,7 @@ mod psp_bias;
 mod psp_classes;
 mod psp_classes_varying;
 mod psp_count;
+mod psp_instances;
 mod psp_large;
 mod psp_places;
 mod remesh;

@@ -231,6 +231,10 @@ FIELD(azulejo_psp_options, cosine, 96);
 FIELD(azulejo_psp_options, projectors, 104);
 FIELD(azulejo_psp_options, reserved, 108);
 
+SIZE(azulejo_instance, 104);
+FIELD(azulejo_instance, prototype, 0);
+FIELD(azulejo_instance, reserved, 4);
+FIELD(azulejo_instance, transform, 8);
 SIZE(azulejo_embree_geometry, 32);
 FIELD(azulejo_embree_geometry, geometry_id, 0);
 FIELD(azulejo_embree_geometry, vertex_stride, 4);
@@ -541,6 +545,9 @@ static void signatures(void) {
     azulejo_status (*psp_points)(const azulejo_psp *, azulejo_points **) = azulejo_psp_points;
     azulejo_status (*psp_sample)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                  azulejo_points **, azulejo_psp_report *) = azulejo_psp_sample;
+    azulejo_status (*psp_sample_instances)(const azulejo_context *, const azulejo_mesh *const *, size_t,
+                                           const azulejo_instance *, size_t, size_t, const azulejo_psp_options *,
+                                           azulejo_points **, azulejo_psp_report *) = azulejo_psp_sample_instances;
     azulejo_status (*psp_sample_classes)(const azulejo_context *, const azulejo_mesh *, const azulejo_psp_options *,
                                          const azulejo_classes *, azulejo_points **, azulejo_classes_report *) =
         azulejo_psp_sample_classes;
@@ -635,7 +642,7 @@ static void signatures(void) {
     const char *(*status_name)(azulejo_status) = azulejo_status_name;
     size_t (*last_error_message)(char *, size_t) = azulejo_last_error_message;
     CHECK(context_create && kdrt_sample && mesh_create && mesh_load && psp_create && psp_advance && psp_fill);
-    CHECK(psp_points && psp_sample && psp_sample_classes && psp_classes_with_density && dcr_relax && dcr_relax_classes && dcr_correlation_of_power && dcr_relax_to_correlation && last_error_message && kdrt_sample_window && kdrt_stream);
+    CHECK(psp_points && psp_sample && psp_sample_classes && psp_sample_instances && psp_classes_with_density && dcr_relax && dcr_relax_classes && dcr_correlation_of_power && dcr_relax_to_correlation && last_error_message && kdrt_sample_window && kdrt_stream);
     CHECK(dcr_remesh && kdrt_merge && dcr_surface_relax && status_name);
     CHECK(plane_smallest_distance && plane_covering_radius && plane_coverage);
     CHECK(space_coverage && space_measure && space_radial_distribution && space_spectrum && space_axis_power);

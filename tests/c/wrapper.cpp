@@ -218,6 +218,12 @@ void surfaces() {
     const std::vector<std::uint8_t> only_the_first = {1, 0, 0, 0};
     auto carrying = mesh->with_normals(positions).with_normals(up, first_normal).with_mask(only_the_first);
     CHECK(carrying.has_normals() && carrying.triangle_count() == 4 && carrying.area() == 0.5);
+    std::vector<azulejo::Mesh> prototypes;
+    prototypes.emplace_back(positions, indices);
+    const std::vector<azulejo_instance> instances = {{0, 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}};
+    const auto placed = azulejo::psp_sample_instances(context, prototypes, instances, options);
+    CHECK(placed.size() > 0 && placed.instances().size() == placed.size() && placed.instances()[0] == 0);
+    CHECK(whole.instances().empty());
     const auto part = azulejo::psp_sample(context, carrying, options);
     CHECK(part.interpolated_normals().size() == 3 * part.size() && part.interpolated_normals()[2] == 1);
     CHECK(part.normals()[2] == -1 && part.triangles()[part.size() - 1] == 0);

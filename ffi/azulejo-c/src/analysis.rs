@@ -169,8 +169,7 @@ pub unsafe extern "C" fn azulejo_plane_coverage(
 /// Every gap deeper than a millionth of the radius is found, however small, and the deepest in any
 /// case. An empty set has an infinite radius and one gap.
 ///
-/// O(count * log count) time, by subdivision, and some 1,000 cells per radius^3 of uncovered
-/// volume.
+/// O(count * log count) time, by subdivision, and some 1,000 cells per uncovered radius^3.
 ///
 /// Errors: AZULEJO_ERROR_TOO_LARGE also if more than about 25,000 * radius^3 is uncovered.
 #[unsafe(no_mangle)]

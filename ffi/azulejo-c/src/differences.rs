@@ -98,7 +98,7 @@ pub unsafe extern "C" fn azulejo_differences_mean(
     let out = unsafe { Out::new(out) };
     handles::create(out, || {
         // SAFETY: handed on from the caller.
-        let differences = unsafe { handles::all("differences", differences, count) }?;
+        let differences = unsafe { handles::all("differences", "count", differences, count) }?;
         let all: Vec<_> = differences.iter().map(|one| one.differences.clone()).collect();
         Ok(Differences::together(&all)?.into())
     })

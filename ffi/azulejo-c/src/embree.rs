@@ -13,8 +13,7 @@ use crate::handles;
 use crate::mesh::{azulejo_mesh, collect};
 use crate::status::{Failure, azulejo_status};
 
-/// A geometry of triangles in a scene that the program has made with Embree, which does not report
-/// sizes.
+/// A geometry of triangles in a scene that the program has made with Embree, which keeps no sizes.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_embree_geometry {
@@ -40,7 +39,7 @@ pub struct azulejo_embree_geometry {
 /// scene: a committed RTCScene that no thread changes during the call, of the libembree that the
 /// program has linked or, where it has linked none that all its libraries see, of the one that
 /// libazulejo loads by its SONAME: otherwise, as for an Embree that is linked statically, the
-/// behaviour is undefined. Instances in it are not followed.
+/// behaviour is undefined. Instances are not followed: azulejo_psp_sample_instances takes them.
 ///
 /// geometries: at least one, each attached to the scene as RTC_GEOMETRY_TYPE_TRIANGLE. If an id, a
 /// size or a type is not that of the scene, the behaviour is undefined.
@@ -49,8 +48,7 @@ pub struct azulejo_embree_geometry {
 ///
 /// O(vertices + triangles).
 ///
-/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE if the version is another one or not
-/// found.
+/// Errors: those of azulejo_mesh_create; AZULEJO_ERROR_EMBREE if it is another version or missing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_mesh_create_from_embree(
     scene: *mut c_void,

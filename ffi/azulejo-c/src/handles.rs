@@ -92,17 +92,18 @@ pub(crate) unsafe fn peek<'a, T: Handle>(argument: &str, pointer: *const T) -> O
     unsafe { get(argument, pointer) }.map_err(Failure::record).ok()
 }
 
-/// The handles in the caller's array of `count` pointers.
+/// The handles in the caller's array of `count` pointers, whose number is the argument `count_argument`.
 ///
 /// # Safety
 /// Unless the checks fail, `pointers` leads to `count` pointers, each of them as in [`get`].
 pub(crate) unsafe fn all<'a, T: Handle>(
     argument: &str,
+    count_argument: &str,
     pointers: *const *const T,
     count: usize,
 ) -> Result<Vec<&'a T>, Failure> {
     // SAFETY: handed on from the caller.
-    let pointers = unsafe { rows::<*const T, 1>(argument, pointers, "count", count) }?;
+    let pointers = unsafe { rows::<*const T, 1>(argument, pointers, count_argument, count) }?;
     // SAFETY: likewise.
     let handle = |(i, &[pointer]): (usize, &[*const T; 1])| unsafe { get(&format!("{argument}: [{i}]"), pointer) };
     pointers.iter().enumerate().map(handle).collect()
@@ -208,7 +209,7 @@ mod tests {
         assert_eq!(word, [made; 2]);
         let handles = [made.cast_const(), made.wrapping_byte_add(2)];
         // SAFETY: the first is a handle, the second is refused.
-        let status = |count| call(|| unsafe { all("fruit", handles.as_ptr(), count) }.map(drop));
+        let status = |count| call(|| unsafe { all("fruit", "count", handles.as_ptr(), count) }.map(drop));
         assert_eq!((status(1), status(2)), (AZULEJO_OK, AZULEJO_ERROR_INVALID_ARGUMENT));
         // SAFETY: a handle of the library, which nothing uses any more.
         unsafe { free("fruit", made) };

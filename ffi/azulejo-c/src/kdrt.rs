@@ -209,8 +209,7 @@ const PATTERN_SHARE: f64 = 0.05;
 /// O(samples in the window and within 22 radii along x and 18 along y) time and memory, and the
 /// making of the pattern, of about 28,000 samples with the default leaves. In progressive order
 /// each level, of radius R, adds about 12 R to the margin: in all about 56,000 samples at a
-/// quotient of 2^(1/8) or 15,000 at 2^(1/4) for each level. A domain that is not tiled is made as a
-/// whole.
+/// quotient of 2^(1/8) or 15,000 at 2^(1/4) for each level. A domain without tiles is made whole.
 ///
 /// Errors: AZULEJO_ERROR_TOO_LARGE counts the samples of the window only; the domain may have as
 /// many as floats can carry, up to about 10^11.

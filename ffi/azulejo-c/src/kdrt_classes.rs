@@ -28,8 +28,7 @@ use crate::status::azulejo_status;
 /// options: `radius`, `count` and `measure_covering_radius` must be 0. `coarsest` is the radius of
 /// the first level of each class, at least the largest own radius.
 ///
-/// out: the samples with their classes, sorted by class, then by y and x, in progressive order by
-/// rank.
+/// out: the samples with their classes, sorted by these, then by y and x or in order by rank.
 ///
 /// O(samples) time, for a given number of classes, and 64 bytes of memory per sample. Where the
 /// domain is a torus narrower than about 10 times the largest r_ij between classes of equal own

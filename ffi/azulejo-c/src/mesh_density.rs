@@ -67,8 +67,7 @@ pub struct azulejo_mesh_density {
     pub by_corners: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// The radius at density 1, above 0, that of a maximal set of density 1; at d this over
-    /// sqrt(d).
+    /// The radius at density 1, above 0: that of a maximal set. At d it is this over sqrt(d).
     pub radius: f64,
     /// About how many samples the whole set has, above 0: fewer where parts of the surface are
     /// nearer to each other than the radius, and some more along boundaries. In progressive order

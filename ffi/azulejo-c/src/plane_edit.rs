@@ -170,8 +170,7 @@ pub unsafe extern "C" fn azulejo_plane_add_given(
     })
 }
 
-/// Removes given samples by their ids: azulejo_plane_refill fills what they covered. O(given
-/// samples).
+/// Removes given samples by their ids: azulejo_plane_refill fills the gaps. O(given samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_remove_given(
     plane: *mut azulejo_plane,

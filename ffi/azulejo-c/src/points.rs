@@ -23,7 +23,7 @@ handle!(azulejo_points);
 
 pub(crate) enum Samples {
     Plane(Vec<[f32; 2]>),
-    Space(Points<3>),
+    Space(Box<Points<3>>),
 }
 
 impl azulejo_points {
@@ -41,7 +41,7 @@ impl azulejo_points {
     pub(crate) fn space(mut samples: Points<3>) -> Self {
         let (ranks, classes) = (std::mem::take(&mut samples.ranks), std::mem::take(&mut samples.classes));
         let (radii, ids) = (std::mem::take(&mut samples.radii), std::mem::take(&mut samples.ids));
-        Self { ranks, classes, radii, ids, ..Self::of(Samples::Space(samples)) }
+        Self { ranks, classes, radii, ids, ..Self::of(Samples::Space(Box::new(samples))) }
     }
 }
 
@@ -159,6 +159,13 @@ pub unsafe extern "C" fn azulejo_points_classes(points: *const azulejo_points) -
 pub unsafe extern "C" fn azulejo_points_ids(points: *const azulejo_points) -> *const u64 {
     // SAFETY: handed on from the caller.
     unsafe { handles::peek("points", points) }.map_or(std::ptr::null(), |points| array(&points.ids))
+}
+
+/// The index of each sample's instance, from azulejo_psp_sample_instances: they never fall.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn azulejo_points_instances(points: *const azulejo_points) -> *const u32 {
+    // SAFETY: handed on from the caller.
+    unsafe { surface(points) }.map_or(std::ptr::null(), |samples| array(&samples.instances))
 }
 
 /// Frees the set with all its arrays.

@@ -89,8 +89,7 @@ pub const AZULEJO_PROJECTORS_GLOBAL: u32 = 1;
 /// Ray packets of Embree find where patterns meet the mesh.
 pub const AZULEJO_ENGINE_EMBREE: u32 = 0;
 /// Triangles are rasterised over the patterns (thesis section 3.4.3). With local projectors the
-/// samples are those of Embree, to the bit, with global ones hits differ by up to 2e-7 of its
-/// diagonal.
+/// samples are Embree's, to the bit; with global ones hits differ by 2e-7 of its diagonal at most.
 pub const AZULEJO_ENGINE_RASTERISER: u32 = 1;
 /// The default: the rasteriser for local projectors, which took the least time on every mesh
 /// measured, and for global ones Embree where there is one.
@@ -227,14 +226,14 @@ impl azulejo_psp_options {
             .cosine(self.cosine))
     }
 
-    /// The request of azulejo_psp_sample_region.
+    /// The request of azulejo_psp_sample_region and of azulejo_psp_sample_instances, which is the `call`.
     ///
     /// # Safety
     /// As [`given`] for the given samples.
-    pub(crate) unsafe fn request_of_region<'a>(&self) -> Result<RegionOptions<'a>, Failure> {
-        self.check_filled_only("in a region")?;
-        check_unused("order", self.order, Self::DEFAULT.order, "in a region")?;
-        check_unused("quotient", self.quotient, Self::DEFAULT.quotient, "in a region")?;
+    pub(crate) unsafe fn request_of_region<'a>(&self, call: &str) -> Result<RegionOptions<'a>, Failure> {
+        self.check_filled_only(call)?;
+        check_unused("order", self.order, Self::DEFAULT.order, call)?;
+        check_unused("quotient", self.quotient, Self::DEFAULT.quotient, call)?;
         // SAFETY: handed on from the caller.
         let given = unsafe { given(self.given_positions, self.given_clearances, self.given_count) }?;
         Ok(RegionOptions::new(self.radius).seed(self.seed).given(given).cosine(self.cosine))
@@ -380,8 +379,7 @@ pub unsafe extern "C" fn azulejo_psp_fill(psp: *mut azulejo_psp, report: *mut az
     unsafe { change(psp, report, fill) }
 }
 
-/// Copies the set, with normals, triangles and barycentrics; an edited one by rising ids.
-/// O(samples).
+/// Copies the set with normals, triangles and barycentrics, an edited one by ids. O(samples).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_psp_points(psp: *const azulejo_psp, out: *mut *mut azulejo_points) -> azulejo_status {
     // SAFETY: handed on from the caller.

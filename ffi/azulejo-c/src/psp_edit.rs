@@ -84,7 +84,7 @@ pub unsafe extern "C" fn azulejo_psp_restore(psp: *mut azulejo_psp, points: *con
             return Err(Failure::invalid("points", "are samples of the plane"));
         };
         // The fields that are kept apart from the others.
-        let samples = Points { ids: points.ids.clone(), ..samples.clone() };
+        let samples = Points { ids: points.ids.clone(), ..Points::clone(samples) };
         Ok(psp.lock()?.editable().restore(&samples)?)
     })
 }
@@ -143,8 +143,7 @@ pub unsafe extern "C" fn azulejo_psp_remove_given(
 /// Makes the set maximal again after edits: as azulejo_psp_fill, but only where samples were erased
 /// or given samples removed since the last refill. All samples that stand stay as they are.
 ///
-/// The new samples depend on `seed`, on the edits and on what stands around, up to a radius outside
-/// an erased region.
+/// The new samples depend on `seed`, on the edits and on what stands within a radius of a region.
 ///
 /// added: the new samples with their ids, by rising ids; NULL if they are not wanted.
 ///
@@ -202,7 +201,8 @@ pub unsafe extern "C" fn azulejo_psp_sample_region(
         // SAFETY: handed on from the caller.
         let (options, report) = unsafe { (growing::read("options", options)?, Output::optional("report", report)?) };
         // SAFETY: handed on from the caller.
-        let (request, region) = unsafe { (options.request_of_region()?, growing::read("region", region)?.region()?) };
+        let (request, region) =
+            unsafe { (options.request_of_region("in a region")?, growing::read("region", region)?.region()?) };
         let mesh = mesh.shared.clone();
         let (samples, done) = context
             .run(options.watch(), |context, progress| sample_region(context, &mesh, &region, &request, progress))?;

@@ -40,8 +40,7 @@ pub struct azulejo_psp_report {
     pub fill_seconds: f64,
     /// The radius of the set in units of d_max: about 0.78 for a maximal set, 0 for no samples.
     pub rho: f64,
-    /// If the call filled gaps: the fraction of the area that was uncovered before, an estimate.
-    /// Else -1.
+    /// If the call filled gaps: about the share of the area uncovered before. Else -1.
     pub uncovered_before: f64,
     /// If the call filled gaps: 0, what is uncovered after it. Else -1.
     pub uncovered_after: f64,
@@ -50,8 +49,7 @@ pub struct azulejo_psp_report {
     /// radius at density 1.
     pub radius: f64,
     /// A bound of the covering radius, up to 6 float spacings, or where `radius` is a factor of
-    /// radii, of that factor: `radius` after gaps were filled, a little more for a count. -1:
-    /// unknown.
+    /// radii, of that factor: `radius` after a fill, a little more for a count. -1: unknown.
     pub covering_radius: f64,
 }
 

@@ -132,7 +132,7 @@ pub unsafe extern "C" fn azulejo_spectrum_mean(
     let out = unsafe { Out::new(out) };
     handles::create(out, || {
         // SAFETY: handed on from the caller.
-        let spectra = unsafe { handles::all("spectra", spectra, count) }?;
+        let spectra = unsafe { handles::all("spectra", "count", spectra, count) }?;
         let periodograms: Vec<_> = spectra.iter().map(|spectrum| spectrum.periodogram.clone()).collect();
         Ok(azulejo_spectrum { periodogram: Periodogram::mean(&periodograms)? })
     })
@@ -224,8 +224,7 @@ impl From<Annulus> for azulejo_annulus {
     }
 }
 
-/// Measures a spectrum: effective Nyquist frequency, oscillation, contrast and the highest peak.
-/// O(size^2).
+/// Measures a spectrum: effective Nyquist frequency, oscillation, contrast, peak. O(size^2).
 ///
 /// width: that of the annuli of the radial mean, above 0; 0.05 suits some thousand points.
 ///

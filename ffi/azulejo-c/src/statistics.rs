@@ -33,8 +33,7 @@ pub struct azulejo_plane_report {
     /// The covering radius: d_max / sqrt(3) for a hexagonal lattice; infinite for no point.
     pub covering_radius: f64,
     /// The bond order psi6: the mean over the points of |sum of exp(6 i angle)| / n for the n
-    /// directions of their Delaunay neighbours (Nelson and Halperin 1979). 1 for a lattice, 0.36
-    /// for Poisson.
+    /// directions of Delaunay neighbours (Nelson, Halperin 1979). 1 in a lattice, 0.36 at random.
     pub bond_order: f64,
     /// The number of Delaunay triangles; in a bounded domain without those across its edges.
     pub triangles: u64,
@@ -83,8 +82,7 @@ pub unsafe extern "C" fn azulejo_plane_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Measures points of the plane: spacing, cover, bond order and Delaunay triangles. O(count * log
-/// count) time.
+/// Measures points of the plane: spacing, cover, bonds, Delaunay triangles. O(count * log count).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_plane_measure(
     context: *const azulejo_context,
@@ -190,8 +188,7 @@ pub unsafe extern "C" fn azulejo_space_report_init(
     unsafe { growing::init("report", report, struct_size) }
 }
 
-/// Measures points of a cuboid: spacing, conflicts and covering radius. O(count * log count +
-/// conflicts).
+/// Measures points of a cuboid: spacing, conflicts, cover. O(count * log count + conflicts).
 ///
 /// radius: pairs of points that are nearer are conflicts; 0 counts none.
 #[unsafe(no_mangle)]
@@ -249,8 +246,7 @@ pub unsafe extern "C" fn azulejo_plane_nearest_histogram(
 ///
 /// set: the points, at least 2.
 ///
-/// reach: where the last bin ends, in units of d_max: above 0, and at most half of the width or
-/// height of the domain.
+/// reach: where the last bin ends, in units of d_max: above 0, at most half of either side.
 ///
 /// bins: the number of bins of equal width from 0 to `reach`, 1 to 65536.
 ///

@@ -53,7 +53,7 @@ const HEADERS: [Header; 8] = [
     Header {
         name: "psp",
         page: "PSP: maximal Poisson-disk sets on triangle meshes, also with a radius that varies.",
-        sources: &["psp_report", "psp", "psp_classes", "psp_edit", "adaptive", "mesh_density"],
+        sources: &["psp_report", "psp", "psp_classes", "psp_edit", "instances", "adaptive", "mesh_density"],
     },
     Header {
         name: "volume",

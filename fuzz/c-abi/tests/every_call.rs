@@ -12,6 +12,7 @@ use azulejo_c::context::*;
 use azulejo_c::dcr::*;
 use azulejo_c::domain::*;
 use azulejo_c::inside::*;
+use azulejo_c::instances::*;
 use azulejo_c::kdrt::*;
 use azulejo_c::kdrt_classes::*;
 use azulejo_c::kept::*;
@@ -444,6 +445,14 @@ fn surfaces() {
     unsafe {
         if !cfg!(miri) {
             read_and_free(made(|out| azulejo_psp_sample(context.get(), normal.get(), &options, out, null_mut())));
+            let identity = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+            let (prototype, instance) =
+                (normal.get(), azulejo_instance { prototype: 0, reserved: 0, transform: identity });
+            read_and_free(made(|out| {
+                let (context, size, mut options) = (context.get(), size_of_val(&instance), options);
+                options.engine = AZULEJO_ENGINE_AUTO;
+                azulejo_psp_sample_instances(context, &prototype, 1, &instance, 1, size, &options, out, null_mut())
+            }));
             let (mut classes, mut radii, masks) = (defaults(azulejo_classes_init), [0.0; 4], [1u32, 3]);
             assert_eq!(azulejo_classes_radii([0.9, 0.7].as_ptr(), 2, 1.0, radii.as_mut_ptr()), AZULEJO_OK);
             (classes.count, classes.radii, classes.masks, classes.mask_count) = (2, radii.as_ptr(), masks.as_ptr(), 2);

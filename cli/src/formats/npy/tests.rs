@@ -61,6 +61,7 @@ fn a_structured_array_holds_all_that_is_known_of_samples() {
         classes: vec![1, 0],
         radii: Vec::new(),
         ids: Vec::new(),
+        instances: Vec::new(),
     };
     let table = |radii| SurfaceTable {
         samples: &samples,
