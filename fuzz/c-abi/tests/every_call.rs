@@ -447,7 +447,7 @@ fn surfaces() {
             read_and_free(made(|out| azulejo_psp_sample(context.get(), normal.get(), &options, out, null_mut())));
             let identity = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
             let (prototype, instance) =
-                (normal.get(), azulejo_instance { prototype: 0, reserved: 0, transform: identity });
+                (normal.get().cast_const(), azulejo_instance { prototype: 0, reserved: 0, transform: identity });
             read_and_free(made(|out| {
                 let (context, size, mut options) = (context.get(), size_of_val(&instance), options);
                 options.engine = AZULEJO_ENGINE_AUTO;
