@@ -141,7 +141,8 @@ impl Points {
             ranks,
             classes,
             radii,
-            ids: _, // see with_ids
+            ids: _,       // see with_ids
+            instances: _, // no call of Python makes any
         } = samples;
         let has_normals = !interpolated_normals.is_empty();
         let count = positions.len();
