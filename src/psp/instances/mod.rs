@@ -36,9 +36,9 @@ use scene::Scene;
 /// The report counts and times all instances, and with several threads their times add up to more than its `seconds`.
 ///
 /// # Errors
-/// Those of [`sample`](super::sample), and [`Error::InvalidArgument`] for `instances` of a prototype that there is not,
-/// with a transform that is not finite, or that lie out of the range of floats. Where the call is cancelled nothing is
-/// returned.
+/// Those of [`sample`](super::sample), and [`Error::InvalidArgument`](crate::Error::InvalidArgument) for `instances` of a
+/// prototype that there is not, with a transform that is not finite, or that lie out of the range of floats. Where the
+/// call is cancelled nothing is returned.
 pub fn sample_instances(
     context: &Context,
     prototypes: &[Arc<Mesh>],
