@@ -817,11 +817,16 @@ export function dcrRelaxDensity(
 };
 
 export interface SurfaceRelaxOptions extends Watched {
+    /**
+     * The density that the samples shall have, without `radius` and `count`; by default the same everywhere. No sample ends where
+     * it is 0, and `rho` is the least distance over the mean of the distances that it asks for at the two samples.
+     */
+    density?: MeshDensity | null;
     /** The largest number of steps; default 100. */
     maxIterations?: number;
     /** The motion at which the set has converged; default 0.0005. */
     tolerance?: number;
-    /** Used where samples coincide only. Default 0. */
+    /** Used where samples coincide, or are redistributed. Default 0. */
     seed?: Seed;
 }
 

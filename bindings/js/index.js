@@ -175,7 +175,7 @@ const RELAX_INSIDE = { ...WATCHED, fixed: null, sliding: null, maxIterations: 10
 const CORRELATION = { ...DOMAIN, maxIterations: 100, tolerance: 0.005, seed: 0 };
 const IMAGE = { values: null, width: 0, height: 0 };
 const DITHERED = { values: null, width: 0, height: 0, depth: 1, channels: 1 };
-const RELAX_SURFACE = { ...WATCHED, maxIterations: 100, tolerance: 0.0005, seed: 0 };
+const RELAX_SURFACE = { ...WATCHED, density: null, maxIterations: 100, tolerance: 0.0005, seed: 0 };
 const THIN = { ...WATCHED, radius: 0, count: 0, order: "any", seed: 0 };
 const SPECTRA = { ...DOMAIN, frequencyStride: 1 };
 const SPACE_SPECTRUM = { ...CUBOID, frequencyStride: 1, width: 0.05 };
@@ -702,11 +702,13 @@ export function maskDither(ranks, mask, image, levels = 2) {
     });
 }
 
-function density(of) {
+function density(of, isRelaxed = false) {
     const options = withDefaults(DENSITY, of);
     const { values, radius, count, width, height } = options;
     if (values === null) throw new TypeError("values: a density needs some");
-    if ((radius === 0) === (count === 0)) {
+    if (isRelaxed) {
+        if (radius !== 0 || count !== 0) throw new TypeError("radius: has no effect in a relaxation, nor has count");
+    } else if ((radius === 0) === (count === 0)) {
         throw new RangeError(`radius: ${radius}, and count ${count}: one of them must be 0`);
     }
     return { ...options, kind: 2, size: [whole("width", width), whole("height", height)] };
@@ -1005,10 +1007,12 @@ export function dcrRelaxDensity(positions, density, options) {
 
 export function dcrSurfaceRelax(mesh, samples, options) {
     options = withDefaults(RELAX_SURFACE, options);
+    const { size, values, texture } = options.density === null ? NO_RADII : density(options.density, true);
     return calling((call) => {
         const { maxIterations, tolerance } = options;
         const args = [
             meshPointer(mesh), whole("maxIterations", maxIterations), tolerance, seedOf(options), ...places(call, samples),
+            ...size, ...call.rows("density", values, Float32Array, 1), ...call.rows("texture", texture, Float32Array, 2),
         ];
         const [report, ...relaxed] = last(call.make("dcr_surface_relax", args, ...SAMPLES, Float64Array));
         const [iterations, stopped, motion, smallestDistance, rho] = report;

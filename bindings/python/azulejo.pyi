@@ -759,6 +759,8 @@ def dcr_surface_relax(
     triangles: ArrayLike,
     barycentrics: ArrayLike,
     *,
+    density: Optional[ArrayLike] = None,
+    texture: Optional[ArrayLike] = None,
     max_iterations: SupportsIndex = 100,
     tolerance: Optional[SupportsFloat] = None,
     seed: SupportsIndex = 0,

@@ -278,6 +278,25 @@ fn densities_come_from_an_attribute_of_the_vertices() {
     assert!(said.starts_with("error: square.ply: attribute z: 0 everywhere"), "{said}");
 }
 
+/// Samples of one radius become as dense as the attribute x says.
+#[test]
+fn samples_are_relaxed_to_an_attribute_of_the_vertices() {
+    let workshop = Workshop::new();
+    square(&workshop);
+    workshop.succeed(&["surface", "square.ply", "--radius", "0.02", "-o", "a.csv"]);
+    let relax = ["relax", "a.csv", "--mesh", "square.ply", "-o", "b.csv", "--density-from"];
+    workshop.succeed(&[&relax[..], &["x"]].concat());
+    let read = |name: &str| fs::read_to_string(workshop.path(name)).unwrap();
+    let text = read("b.csv");
+    let x: Vec<f64> = text.lines().skip(1).map(|line| line.split(',').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(x.len(), read("a.csv").lines().count() - 1);
+    let left = x.iter().filter(|&&x| x < 0.5).count() as f64 / x.len() as f64;
+    assert!((left - 0.25).abs() < 0.02, "{left}");
+    let said = workshop.refuse(&[&relax[..], &["z", "--force"]].concat(), 1);
+    assert!(said.starts_with("error: square.ply: attribute z: 0 everywhere"), "{said}");
+    workshop.refuse(&["relax", "a.csv", "-o", "c.csv", "--density-from", "x"], 2);
+}
+
 /// Exactly so many samples of a density, and fewer of them, and all of a radius for each vertex.
 #[test]
 fn sets_of_varying_radii_have_ranks_in_progressive_order() {

@@ -271,6 +271,8 @@ typedef struct azulejo_dcr_surface_options {
     uint64_t seed;
     azulejo_progress_fn progress; ///< Default NULL: the callback of the context, if it has one.
     void *progress_user; ///< Passed to the progress callback.
+    /// The density that samples shall have, without `radius` and `count`. Default NULL: constant.
+    const azulejo_mesh_density *density;
 } azulejo_dcr_surface_options;
 
 /// The report of azulejo_dcr_surface_relax. Its d_max is that of a plane of the mesh's area.
@@ -283,8 +285,8 @@ typedef struct azulejo_dcr_surface_report {
     double motion;
     /// The smallest straight distance between two samples: never less than before the call.
     double smallest_distance;
-    /// The same in units of d_max: about 0.77 for a maximal set, more for a relaxed one, except on
-    /// meshes with parts that are nearer to each other than samples are.
+    /// In units of d_max, with a density of its mean at both samples: about 0.77 for a maximal set,
+    /// more for a relaxed one, except where parts of the mesh are nearer to each other.
     double rho;
 } azulejo_dcr_surface_report;
 
@@ -301,14 +303,14 @@ azulejo_status azulejo_dcr_surface_report_init(azulejo_dcr_surface_report *repor
 ///
 /// No two samples get nearer to each other than the nearest two were before: straight distances, in
 /// double arithmetic, without tolerance. More than 64 samples that are clustered are redistributed
-/// over all of the surface before the first step, by the area of each connected part, where there
-/// is room for that at the same smallest distance.
+/// before the first step, by the area of each connected part, where the same distance allows it.
+/// With a density, distances are judged in the mean of its d_max at both samples, and no sample
+/// ends where it is 0; they may shrink, and sets of other densities are redistributed.
 /// - triangles, barycentrics: one triangle and u v for each sample. Barycentrics outside their
 ///   triangle by at most 1e-6 are moved onto it; those farther outside, and triangles that have no
 ///   area or are left out by the mask, are refused.
 /// - out: after the last whole step, in the same order, with normals, triangles and barycentrics.
-/// - O(triangles) time once, and O(count) for each step, somewhat more with many triangles between
-///   neighbours, beside boundaries and for clustered samples. O(count + triangles) memory.
+/// - O(triangles) time once, and O(count) for each step. O(count + triangles) memory.
 azulejo_status azulejo_dcr_surface_relax(const azulejo_context *context,
                                          const azulejo_mesh *mesh,
                                          const azulejo_dcr_surface_options *options,

@@ -359,7 +359,7 @@ typedef double (*azulejo_mesh_density_fn)(void *user, const double *position);
 
 /// The number of samples of a mesh per unit of area, from place to place: at least 0, and not 0
 /// everywhere. One of `vertex_values`, `function` and `image` must be set, and one of `radius` and
-/// `count`; what is not set has its default, NULL or 0.
+/// `count`, but neither in a relaxation; what is not set has its default, NULL or 0.
 typedef struct azulejo_mesh_density {
     uint32_t struct_size; ///< The size of the struct in bytes; set by the _init function.
     /// 1: `function` is called at the vertices only, and interpolated on the triangles. Default 0.

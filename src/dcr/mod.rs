@@ -8,8 +8,8 @@
 //!   or sooner if the points have come to rest.
 //! * [`Method::Thesis`]: the algorithm of the thesis with all of its settings.
 //!
-//! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] on triangle
-//! meshes, [`fn@volume::relax`] in cuboids, [`volume::relax_inside`] inside of meshes. [`relax_to_correlation`] gives sets
+//! [`fn@relax`] works on a constant density, [`relax_with_density`] on any other, [`fn@surface::relax`] and
+//! [`surface::relax_with_density`] do so on triangle meshes, [`fn@volume::relax`] works in cuboids, [`volume::relax_inside`] inside of meshes. [`relax_to_correlation`] gives sets
 //! another spectrum. `docs/dcr.md` has measurements of the results in the plane and on meshes: distances, coverage, spectra
 //! and angles.
 //!

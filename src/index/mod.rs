@@ -37,7 +37,7 @@ mod weighted;
 pub use binned::{Binned, Buckets};
 pub use box_tree::{BoxTree, Extent, meet};
 pub use grid3::{Grid3, smallest_distance};
-pub use moving_grid3::MovingGrid3;
+pub use moving_grid3::{LEVELS, MovingGrid3};
 pub use point_tree::PointTree;
 pub use sorted_grid::{Entry, Grid2, SortedGrid};
 pub use weighted::Weights;

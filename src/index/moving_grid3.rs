@@ -1,4 +1,7 @@
 //! Hash grid over points in space that move: a point can be taken from its cell and put elsewhere.
+//!
+//! Where points are searched within radii that differ, they are on several *levels*, each with cells twice as wide as
+//! those of the level before.
 
 use glam::{DVec3, Vec3};
 
@@ -16,16 +19,22 @@ pub struct Entry {
     cell: u64,
 }
 
+/// The number of levels.
+pub const LEVELS: u32 = 7;
+
 /// Points in cells as wide as the radius of a search.
 pub struct MovingGrid3 {
     low: DVec3,
+    /// Cells of level 0 per unit of length.
     per_cell: f64,
     heads: Vec<u32>,
     entries: Vec<Entry>,
+    /// The number of points on each level.
+    held: [u32; LEVELS as usize],
 }
 
 impl MovingGrid3 {
-    /// The cells of all samples. No position may be below `low`. O(n).
+    /// The cells of all samples, on level 0, where they are `side` wide. No position may be below `low`. O(n).
     pub fn new(low: DVec3, side: f64, positions: impl ExactSizeIterator<Item = Vec3>) -> Self {
         let buckets = (2 * positions.len()).next_power_of_two().max(64);
         let mut cells = Self {
@@ -33,10 +42,11 @@ impl MovingGrid3 {
             per_cell: 1.0 / side,
             heads: vec![NONE; buckets],
             entries: Vec::with_capacity(positions.len()),
+            held: [0; LEVELS as usize],
         };
         for (sample, position) in (0..).zip(positions) {
             cells.entries.push(Entry { position, next: NONE, cell: 0 });
-            cells.insert(sample, position);
+            cells.insert(sample, position, 0);
         }
         cells
     }
@@ -47,8 +57,8 @@ impl MovingGrid3 {
         self.entries[sample as usize].position
     }
 
-    /// Moves a sample to a position.
-    pub fn put(&mut self, sample: u32, position: Vec3) {
+    /// Moves a sample to a position on a level.
+    pub fn put(&mut self, sample: u32, position: Vec3, level: u32) {
         let Entry { next, cell, .. } = self.entries[sample as usize];
         let bucket = self.bucket(cell);
         let mut before = self.heads[bucket];
@@ -60,19 +70,21 @@ impl MovingGrid3 {
             }
             self.entries[before as usize].next = next;
         }
-        self.insert(sample, position);
+        self.held[level_of(cell) as usize] -= 1;
+        self.insert(sample, position, level);
     }
 
-    fn insert(&mut self, sample: u32, position: Vec3) {
-        let [x, y, z] = self.cell(position);
-        let cell = number(x, y, z);
+    fn insert(&mut self, sample: u32, position: Vec3, level: u32) {
+        let cell = number(self.cell(position.as_dvec3(), level), level);
+        self.held[level as usize] += 1;
         let bucket = self.bucket(cell);
         self.entries[sample as usize] = Entry { position, next: self.heads[bucket], cell };
         self.heads[bucket] = sample;
     }
 
-    fn cell(&self, position: Vec3) -> [u64; 3] {
-        let place = (position.as_dvec3() - self.low) * self.per_cell;
+    #[inline]
+    fn cell(&self, position: DVec3, level: u32) -> [u64; 3] {
+        let place = (position - self.low) * (self.per_cell / f64::from(1u32 << level));
         // One more than the cell, so that the cell before it has a number. Far out, floats are farther apart than
         // cells, and no cell matters but that of the position itself.
         let index = |along: f64| along.min(FARTHEST) as u64 + 1;
@@ -84,14 +96,27 @@ impl MovingGrid3 {
         (cell.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - self.heads.len().ilog2())) as usize
     }
 
-    /// Visits the samples in the cell of a position and in those around it, with their indexed positions.
+    /// Visits the samples of level 0 in the cell of a position and in those around it, with their indexed positions.
     #[inline]
-    pub fn around(&self, position: Vec3, mut visit: impl FnMut(u32, Vec3)) {
-        let [x, y, z] = self.cell(position);
-        for z in z - 1..=z + 1 {
-            for y in y - 1..=y + 1 {
-                for x in x - 1..=x + 1 {
-                    let cell = number(x, y, z);
+    pub fn around(&self, position: Vec3, visit: impl FnMut(u32, Vec3)) {
+        let cell = self.cell(position.as_dvec3(), 0);
+        self.visit(cell.map(|index| index - 1), cell.map(|index| index + 1), 0, visit);
+    }
+
+    /// Visits the samples of a level in all cells that a ball around a position may meet, with their indexed positions.
+    pub fn within(&self, position: Vec3, radius: f64, level: u32, visit: impl FnMut(u32, Vec3)) {
+        if self.held[level as usize] > 0 {
+            let corner = |radius: f64| self.cell(position.as_dvec3() + radius, level);
+            self.visit(corner(-radius), corner(radius), level, visit);
+        }
+    }
+
+    #[inline]
+    fn visit(&self, low: [u64; 3], high: [u64; 3], level: u32, mut visit: impl FnMut(u32, Vec3)) {
+        for z in low[2]..=high[2] {
+            for y in low[1]..=high[1] {
+                for x in low[0]..=high[0] {
+                    let cell = number([x, y, z], level);
                     let mut sample = self.heads[self.bucket(cell)];
                     while sample != NONE {
                         let entry = &self.entries[sample as usize];
@@ -106,8 +131,12 @@ impl MovingGrid3 {
     }
 }
 
-fn number(x: u64, y: u64, z: u64) -> u64 {
-    (x & 0x1f_ffff) | (y & 0x1f_ffff) << 21 | (z & 0x1f_ffff) << 42
+fn number([x, y, z]: [u64; 3], level: u32) -> u64 {
+    (x & 0xf_ffff) | (y & 0xf_ffff) << 20 | (z & 0xf_ffff) << 40 | u64::from(level) << 60
+}
+
+fn level_of(cell: u64) -> u32 {
+    (cell >> 60) as u32
 }
 
 #[cfg(test)]
@@ -150,7 +179,34 @@ mod tests {
                 }
                 for sample in (round..300).step_by(7) {
                     places[sample as usize] = place();
-                    cells.put(sample, places[sample as usize]);
+                    cells.put(sample, places[sample as usize], 0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_of_a_level_that_are_within_a_radius_are_found_once() {
+        let mut rng = Rng::at(12, Draw::Probe, &[]);
+        let mut place = || Vec3::new(rng.unit() as f32, rng.unit() as f32, rng.unit() as f32) - 1.0;
+        let places: Vec<Vec3> = (0..600).map(|_| place()).collect();
+        let mut cells = MovingGrid3::new(DVec3::splat(-1.0), 0.02, places.iter().copied());
+        let level_of = |sample: usize, round: usize| (sample * (round + 3) / 5) as u32 % LEVELS;
+        for round in 0..3 {
+            for (sample, &position) in places.iter().enumerate() {
+                cells.put(sample as u32, position, level_of(sample, round));
+            }
+            for (level, &centre) in (0..LEVELS).cycle().zip(&places) {
+                for radius in [0.0, 0.03, 0.2] {
+                    let mut found = Vec::new();
+                    cells.within(centre, radius, level, |other, _| found.push(other as usize));
+                    found.sort_unstable();
+                    assert!(found.windows(2).all(|pair| pair[0] < pair[1]));
+                    assert!(found.iter().all(|&other| level_of(other, round) == level));
+                    let is_near = |&other: &usize| {
+                        level_of(other, round) == level && f64::from(places[other].distance(centre)) <= radius
+                    };
+                    assert!((0..600).filter(is_near).all(|other| found.binary_search(&other).is_ok()));
                 }
             }
         }

@@ -54,7 +54,17 @@ impl Weights {
     /// A random item, and a place within its weight, from 0 up to the weight.
     #[inline(always)]
     pub fn pick_within(&self, rng: &mut Rng) -> (u32, f64) {
-        let (share, last) = (rng.unit(), self.ends.len() - 1);
+        self.within(rng.unit())
+    }
+
+    /// The item at a share of the total, from 0 up to 1.
+    pub fn at(&self, share: f64) -> u32 {
+        self.within(share).0
+    }
+
+    #[inline(always)]
+    fn within(&self, share: f64) -> (u32, f64) {
+        let last = self.ends.len() - 1;
         let mut item = self.guide[(share * self.ends.len() as f64) as usize] as usize;
         let place = share * self.total();
         while item < last && self.ends[item] <= place {

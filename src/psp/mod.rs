@@ -39,6 +39,7 @@ pub use crate::levels::Amount;
 pub use classes::sample_classes;
 pub use editable::{EditableSet, sample_region};
 pub use fill::rounds::TOLERANCE;
+pub(crate) use fragment::Fragment;
 pub use instances::{Instance, sample_instances};
 pub use options::{
     ClassOptions, DEFAULT_QUOTIENT, Engine, FlatOptions, InstanceOptions, Options, Priority, ProjectionOptions,

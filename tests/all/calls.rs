@@ -159,6 +159,14 @@ fn surface_relaxed(options: &dcr::surface::Options, context: &Context, progress:
     relaxed(set, |report| report.stopped)
 }
 
+fn surface_relaxed_to(density: &[f32], context: &Context, progress: Option<&Progress>) -> Result<String> {
+    let (density, options) =
+        (psp::adaptive::Density::PerVertex(density), dcr::surface::Options::default().max_iterations(8));
+    let (triangles, barycentrics) = (&ON_MESH.triangles, &ON_MESH.barycentrics);
+    let set = dcr::surface::relax_with_density(context, &MESH, triangles, barycentrics, density, &options, progress);
+    relaxed(set, |report| report.stopped)
+}
+
 const PLANE: &[Call] = &[
     Call {
         name: "kdrt::sample",
@@ -614,6 +622,15 @@ const RELAXATION: &[Call] = &[
         ],
     },
     Call {
+        name: "dcr::surface::relax_with_density",
+        reports: 5,
+        run: |c, p| surface_relaxed_to(&RADII, c, p),
+        refused: &[
+            ("density: ", |c, p| surface_relaxed_to(&vec![0.0; RADII.len()], c, p)),
+            ("vertex_count: ", |c, p| surface_relaxed_to(&[], c, p)),
+        ],
+    },
+    Call {
         name: "dcr::surface::remesh",
         reports: 3,
         run: |c, p| {
@@ -926,7 +943,13 @@ fn probes_without_end_take_no_memory_and_can_be_cancelled() {
 }
 
 /// Functions with a progress callback that other files of the crate share.
-const INTERNAL: &[&str] = &["dcr::run", "dcr::relax_set", "dcr::surface::found_corners", "volume::adaptive::complete"];
+const INTERNAL: &[&str] = &[
+    "dcr::run",
+    "dcr::relax_set",
+    "dcr::surface::found_corners",
+    "dcr::surface::relaxed",
+    "volume::adaptive::complete",
+];
 
 /// The public functions of a source with a progress callback: folder, type and name.
 fn long_calls(folder: &str, source: &str) -> Vec<String> {

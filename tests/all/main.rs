@@ -62,6 +62,7 @@ mod psp_large;
 mod psp_places;
 mod remesh;
 mod strips;
+mod surface_density;
 mod surface_relax;
 mod thin;
 mod verdicts;

@@ -60,7 +60,41 @@ static void cancelled(const azulejo_context *context) {
     }
 }
 
+static azulejo_mesh_density no_density(void) {
+    azulejo_mesh_density density;
+    ACCEPTED(azulejo_mesh_density_init(&density, sizeof density));
+    return density;
+}
+
+/* 1 on the upper half of the cube, 0 below. */
+static double upper_half(void *user, const double *position) {
+    (void)user;
+    return position[2] > 0.5 ? 1 : 0;
+}
+
+/* As many samples, none of them where none is wanted; options from before there were densities are still read. */
+static void dense(const azulejo_context *context) {
+    azulejo_dcr_surface_options options = surface_options();
+    azulejo_mesh_density density = no_density();
+    azulejo_dcr_surface_report report = surface_report();
+    azulejo_points *points = NULL;
+    size_t i;
+    density.function = upper_half;
+    density.largest = 1;
+    density.slope = 1e6;
+    options.density = &density;
+    if (!ACCEPTED(relax(context, &options, &points, &report))) return;
+    CHECK(azulejo_points_count(points) == azulejo_points_count(darts) && on_triangles(points) && report.rho > 0.7);
+    for (i = 0; i < azulejo_points_count(points); i++) CHECK(azulejo_points_positions(points)[3 * i + 2] > 0.5f);
+    azulejo_points_free(points);
+    density.slope = -1;
+    options.struct_size = offsetof(azulejo_dcr_surface_options, density);
+    if (ACCEPTED(relax(context, &options, &points, &report))) azulejo_points_free(points);
+}
+
 static void refused(void) {
+    azulejo_mesh_density density = no_density();
+    const float values[12] = {0};
     azulejo_dcr_surface_options good = surface_options();
     azulejo_dcr_surface_report report, before;
     azulejo_points *out = UNTOUCHED;
@@ -90,6 +124,19 @@ static void refused(void) {
     REFUSED(INVALID, "barycentrics: [1] is (0.5, 0.51)", CALL(one, cube, &good, triangles, uv, 2, &out));
     uv[3] = NAN;
     REFUSED(INVALID, "barycentrics: [1] is ", CALL(one, cube, &good, triangles, uv, 2, &out));
+    uv[3] = 0.25f;
+    good.density = &density;
+    REFUSED(INVALID, "vertex_values: one of", CALL(one, cube, &good, triangles, uv, 2, &out));
+    density.vertex_values = values;
+    density.vertex_count = 3;
+    REFUSED(INVALID, "vertex_count: 3", CALL(one, cube, &good, triangles, uv, 2, &out));
+    density.vertex_count = azulejo_mesh_vertex_count(cube);
+    REFUSED(INVALID, "density: 0 everywhere", CALL(one, cube, &good, triangles, uv, 2, &out));
+    density.radius = 1;
+    REFUSED(INVALID, "radius: ", CALL(one, cube, &good, triangles, uv, 2, &out));
+    density.radius = 0;
+    density.struct_size = 3;
+    REFUSED(INVALID, "struct_size", CALL(one, cube, &good, triangles, uv, 2, &out));
 #undef CALL
     CHECK(out == UNTOUCHED && memcmp(&report, &before, sizeof report) == 0);
 }
@@ -145,6 +192,8 @@ int main(void) {
     if (!ACCEPTED(azulejo_psp_sample(four, cube, &options, &darts, NULL))) return finish();
     cancelled(one);
     cancelled(four);
+    dense(one);
+    dense(four);
     refused();
     remeshed();
     azulejo_points_free(darts);

@@ -7,6 +7,7 @@ use azulejo::psp::{FlatOptions, Priority, Projectors, Report};
 use crate::answer::{Answer, call};
 use crate::memory::rows;
 use crate::mesh::{Handle, made};
+use crate::surface_varying::density;
 use crate::{given, order};
 
 /// The options of a set, as JavaScript lays them out.
@@ -81,7 +82,8 @@ pub(crate) fn numbers(report: &Report) -> Vec<f64> {
     ]
 }
 
-/// The relaxed samples; the number of iterations, the reason for stopping, motion, smallest distance and rho.
+/// The samples, relaxed to a density if there are values of one; the number of iterations, the reason for stopping, motion,
+/// smallest distance and rho.
 ///
 /// # Safety
 /// The pointers are valid for reads of so many rows.
@@ -95,12 +97,25 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     count: usize,
     barycentrics: *const [f32; 2],
     barycentric_count: usize,
+    width: usize,
+    height: usize,
+    values: *const f32,
+    value_count: usize,
+    texture: *const [f32; 2],
+    texture_count: usize,
 ) -> i32 {
     // SAFETY: guaranteed by the caller.
     let (triangles, barycentrics) = unsafe { (rows(triangles, count), rows(barycentrics, barycentric_count)) };
+    // SAFETY: likewise.
+    let (values, texture) = unsafe { (rows(values, value_count), rows(texture, texture_count)) };
     call(|context, progress| {
         let options = surface::Options::default().max_iterations(max_iterations).tolerance(tolerance).seed(seed);
-        let (samples, report) = surface::relax(context, &mesh.0, triangles, barycentrics, &options, progress)?;
+        let (samples, report) = if values.is_empty() {
+            surface::relax(context, &mesh.0, triangles, barycentrics, &options, progress)?
+        } else {
+            let density = density(mesh, values, [width, height], texture)?;
+            surface::relax_with_density(context, &mesh.0, triangles, barycentrics, density, &options, progress)?
+        };
         let (iterations, stopped) = (report.iterations.into(), f64::from(report.stopped as u8));
         Ok(answer(samples).and(vec![iterations, stopped, report.motion, report.smallest_distance, report.rho]))
     })

@@ -29,29 +29,40 @@ pub struct VaryingOptions {
 impl VaryingOptions {
     /// The radius on a mesh, if it varies.
     fn radius<'a>(&self, mesh: &Handle, values: &'a [f32], texture: &'a [[f32; 2]]) -> Result<Option<Radius<'a>>> {
-        let vertices = mesh.0.positions().len();
-        let of_vertices = |argument| {
-            if values.len() == vertices {
-                return Ok(values);
-            }
-            let reason = format!("{} numbers for {vertices} vertices", values.len());
-            Err(Error::InvalidArgument { argument, reason })
-        };
         if self.kind < 2.0 {
-            let radii = (self.kind > 0.0).then(|| of_vertices("vertex_radii")).transpose()?;
+            let radii = (self.kind > 0.0).then(|| of_vertices("vertex_radii", mesh, values)).transpose()?;
             return Ok(radii.map(Radius::PerVertex));
         }
-        let density = if self.width == 0.0 && self.height == 0.0 {
-            Density::PerVertex(of_vertices("density")?)
-        } else {
-            let is_of_vertices = texture.len() == vertices;
-            let corners = || texture.as_chunks().0;
-            let texture = if is_of_vertices { Texture::PerVertex(texture) } else { Texture::PerCorner(corners()) };
-            Density::Image { values, width: self.width as usize, height: self.height as usize, texture }
-        };
+        let density = density(mesh, values, [self.width as usize, self.height as usize], texture)?;
         let scale = if self.count > 0.0 { Scale::Count(self.count) } else { Scale::Radius(self.radius) };
         Ok(Some(Radius::Density { density, scale }))
     }
+}
+
+/// Values of the vertices of a mesh.
+fn of_vertices<'a>(argument: &'static str, mesh: &Handle, values: &'a [f32]) -> Result<&'a [f32]> {
+    let vertices = mesh.0.positions().len();
+    if values.len() == vertices {
+        return Ok(values);
+    }
+    let reason = format!("{} numbers for {vertices} vertices", values.len());
+    Err(Error::InvalidArgument { argument, reason })
+}
+
+/// A density on a mesh: of the vertices where it has no size, or an image.
+pub(crate) fn density<'a>(
+    mesh: &Handle,
+    values: &'a [f32],
+    [width, height]: [usize; 2],
+    texture: &'a [[f32; 2]],
+) -> Result<Density<'a>> {
+    if width == 0 && height == 0 {
+        return Ok(Density::PerVertex(of_vertices("density", mesh, values)?));
+    }
+    let is_of_vertices = texture.len() == mesh.0.positions().len();
+    let corners = || texture.as_chunks().0;
+    let texture = if is_of_vertices { Texture::PerVertex(texture) } else { Texture::PerCorner(corners()) };
+    Ok(Density::Image { values, width, height, texture })
 }
 
 /// The samples of a varying radius; the radius of each, and [`numbers`], of which the radius is what they are multiplied by.

@@ -205,6 +205,20 @@ test("what is inside a mesh", () => {
     assert.throws(() => mesh.contains([0, 0, NaN]), /^Error: positions: /);
 });
 
+test("samples are relaxed to a density", () => {
+    const mesh = torus();
+    const { positions, indices } = mesh.arrays();
+    const values = Float32Array.from({ length: positions.length / 3 }, (_, vertex) => Number(positions[3 * vertex] > 0));
+    const samples = azulejo.pspSample(mesh, { radius: 0.1 });
+    const relaxed = azulejo.dcrSurfaceRelax(mesh, samples, { density: { values } });
+    assert.ok(relaxed.positions.length === samples.positions.length && relaxed.rho > 0.7);
+    // Triangles of which no vertex has a density have no samples.
+    const isWanted = (triangle) => [0, 1, 2].some((corner) => values[indices[3 * triangle + corner]] > 0);
+    assert.ok(relaxed.triangles.every(isWanted));
+    assert.throws(() => azulejo.dcrSurfaceRelax(mesh, samples, { density: { values, radius: 1 } }), /^TypeError: radius: /);
+    assert.throws(() => azulejo.dcrSurfaceRelax(mesh, samples, { density: { values: [1] } }), /^Error: density: /);
+});
+
 test("samples of a closed mesh become a closed mesh", () => {
     const mesh = torus();
     const relaxed = azulejo.dcrSurfaceRelax(mesh, azulejo.pspSample(mesh, { radius: 0.12 }));

@@ -117,10 +117,32 @@ pub(crate) fn psp_adaptive_with_density(
     request.sample(py, &mesh, density.radius(&mesh)?)
 }
 
-/// The arguments `density`, `texture`, `radius` and `count`.
-pub(crate) struct MeshDensity<'py> {
+/// The arguments `density` and `texture`.
+pub(crate) struct DensityArrays<'py> {
     values: Array<'py, f32>,
     texture: Option<Array<'py, f32>>,
+}
+
+impl<'py> DensityArrays<'py> {
+    pub(crate) fn read(density: &Bound<'py, PyAny>, texture: Option<&Bound<'py, PyAny>>) -> PyResult<Self> {
+        Ok(Self { values: Array::read("density", density)?, texture: optional("texture", texture)? })
+    }
+
+    /// The density on the mesh.
+    pub(crate) fn of(&self, mesh: &Mesh) -> PyResult<Density<'_>> {
+        Ok(match &self.texture {
+            None => Density::PerVertex(per_vertex("density", &self.values, mesh)?),
+            Some(texture) => {
+                let (values, [width, height]) = self.values.image()?;
+                Density::Image { values, width, height, texture: places(texture)? }
+            }
+        })
+    }
+}
+
+/// The arguments `density`, `texture`, `radius` and `count`.
+pub(crate) struct MeshDensity<'py> {
+    arrays: DensityArrays<'py>,
     scale: Scale,
 }
 
@@ -136,19 +158,12 @@ impl<'py> MeshDensity<'py> {
             (true, false) => Scale::Count(count),
             _ => return Err(invalid("radius", "one of radius and count is needed, and not both")),
         };
-        Ok(Self { values: Array::read("density", density)?, texture: optional("texture", texture)?, scale })
+        Ok(Self { arrays: DensityArrays::read(density, texture)?, scale })
     }
 
     /// The radius on the mesh that follows from the density.
     pub(crate) fn radius(&self, mesh: &Mesh) -> PyResult<Radius<'_>> {
-        let density = match &self.texture {
-            None => Density::PerVertex(per_vertex("density", &self.values, mesh)?),
-            Some(texture) => {
-                let (values, [width, height]) = self.values.image()?;
-                Density::Image { values, width, height, texture: places(texture)? }
-            }
-        };
-        Ok(Radius::Density { density, scale: self.scale })
+        Ok(Radius::Density { density: self.arrays.of(mesh)?, scale: self.scale })
     }
 }
 

@@ -8,6 +8,7 @@ use azulejo_core::dcr::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
+use crate::adaptive::DensityArrays;
 use crate::analysis::{PlaneSet, SpaceSet};
 use crate::argument::{callable, choice, maybe_pair, maybe_real, maybe_triple, maybe_whole, natural, real, whole};
 use crate::array::{Array, line};
@@ -386,36 +387,52 @@ pub(crate) fn dcr_scatter(
     Points::plane(py, samples, &frame)
 }
 
-/// Moves samples along a mesh until they are evenly spread; their smallest distance does not fall.
+/// Moves samples along a mesh until they are evenly spread, or as dense as a density asks for. Without one their smallest distance
+/// does not fall.
 ///
 /// mesh: a Mesh.
 /// triangles, barycentrics: where the samples are, uint32, shape (n,), and float32, shape (n, 2), as in Points.
+/// density, texture: as in psp_adaptive_with_density; default: the same everywhere. No sample ends where the density is 0.
 /// The others are those of dcr_relax.
 ///
-/// Returns Points, in the order of the samples, with the report DcrReport.
+/// Returns Points, in the order of the samples, with the report DcrReport. With a density its rho is the least distance over the
+/// mean of the distances d_max that the density asks for at the two samples.
 #[pyfunction]
 #[pyo3(signature = (
-    mesh, triangles, barycentrics, *, max_iterations=100, tolerance=None, seed=0, threads=0, progress=None
+    mesh, triangles, barycentrics, *, density=None, texture=None, max_iterations=100, tolerance=None, seed=0, threads=0,
+    progress=None
 ))]
 pub(crate) fn dcr_surface_relax(
     py: Python<'_>,
     #[pyo3(from_py_with = taken::mesh)] mesh: Mesh,
     triangles: &Bound<'_, PyAny>,
     barycentrics: &Bound<'_, PyAny>,
+    density: Option<&Bound<'_, PyAny>>,
+    texture: Option<&Bound<'_, PyAny>>,
     #[pyo3(from_py_with = whole::max_iterations)] max_iterations: i128,
     #[pyo3(from_py_with = maybe_real::tolerance)] tolerance: Option<f64>,
     #[pyo3(from_py_with = whole::seed)] seed: i128,
     #[pyo3(from_py_with = whole::threads)] threads: i128,
     #[pyo3(from_py_with = callable::progress)] progress: Option<Py<PyAny>>,
 ) -> PyResult<Points> {
+    let arrays = density.map(|density| DensityArrays::read(density, texture)).transpose()?;
+    if arrays.is_none() && texture.is_some() {
+        return Err(invalid("texture", "is given without a density"));
+    }
+    let density = arrays.as_ref().map(|arrays| arrays.of(&mesh)).transpose()?;
     let (triangles, barycentrics) = (Array::read("triangles", triangles)?, Array::read("barycentrics", barycentrics)?);
     let (triangles, barycentrics) = (triangles.line()?, barycentrics.rows()?);
     let mut request = surface::Options::default()
         .max_iterations(natural("max_iterations", max_iterations)?)
         .seed(natural("seed", seed)?);
     request = request.tolerance(tolerance.unwrap_or(request.tolerance));
-    let (relaxed, report) = Watch::new(py, threads, progress)?
-        .run(|context, progress| surface::relax(context, &mesh.shared, triangles, barycentrics, &request, progress))?;
+    let (relaxed, report) = Watch::new(py, threads, progress)?.run(|context, progress| match density {
+        None => surface::relax(context, &mesh.shared, triangles, barycentrics, &request, progress),
+        Some(density) => {
+            let mesh = &mesh.shared;
+            surface::relax_with_density(context, mesh, triangles, barycentrics, density, &request, progress)
+        }
+    })?;
     Points::surface(py, relaxed, mesh.shared.origin())?.with_report(py, DcrReport::from(report))
 }
 

@@ -175,6 +175,21 @@ def test_relaxation_on_a_mesh(mesh):
     assert smallest_distance(relaxed.positions) >= smallest_distance(points.positions)
 
 
+def test_relaxation_on_a_mesh_to_a_density(mesh):
+    x = mesh.positions[:, 0]
+    density = (x > 0).astype(np.float32)
+    points = azulejo.psp_sample(mesh, 0.1)
+    relaxed = azulejo.dcr_surface_relax(mesh, points.triangles, points.barycentrics, density=density)
+    # Triangles of which no vertex has a density have no samples.
+    corners = mesh.indices[relaxed.triangles]
+    assert len(relaxed) == len(points) and (density[corners].max(axis=1) > 0).all()
+    assert relaxed.report.rho > 0.7
+    with pytest.raises(ValueError, match="texture"):
+        azulejo.dcr_surface_relax(mesh, points.triangles, points.barycentrics, texture=points.barycentrics)
+    with pytest.raises(ValueError, match="density"):
+        azulejo.dcr_surface_relax(mesh, points.triangles, points.barycentrics, density=density[1:])
+
+
 def test_samples_become_a_mesh(mesh):
     points = azulejo.psp_sample(mesh, 0.2)
     made, report = azulejo.dcr_remesh(mesh, points.triangles, points.barycentrics)

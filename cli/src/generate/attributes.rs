@@ -24,8 +24,8 @@ impl<'a> MeshFile<'a> {
     }
 
     /// A number for each vertex.
-    pub fn vertex_attribute(&self, name: &str) -> Result<Vec<f64>> {
-        self.attribute("vertex", name)
+    pub fn vertex_values(&self, name: &str) -> Result<Vec<f32>> {
+        Ok(self.attribute("vertex", name)?.into_iter().map(|value| value as f32).collect())
     }
 
     /// The mask of the mesh: for each triangle, whether the number of its face is not 0.
@@ -39,6 +39,16 @@ impl<'a> MeshFile<'a> {
     /// An error about an attribute.
     pub fn error(&self, attribute: &str, reason: &str) -> Error {
         self.format_error(format!("attribute {attribute}: {reason}"))
+    }
+
+    /// An error about the numbers of the vertices, with the attribute that they are.
+    pub fn blame(&self, attribute: Option<&str>, error: Error) -> Error {
+        match (attribute, error) {
+            (Some(attribute), Error::InvalidArgument { argument: "vertex_radii" | "density", reason }) => {
+                self.error(attribute, &reason)
+            }
+            (_, other) => other,
+        }
     }
 
     fn format_error(&self, reason: String) -> Error {

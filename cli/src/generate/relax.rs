@@ -5,9 +5,11 @@ use std::time::Instant;
 
 use azulejo::dcr::{self, CorrelationOptions, Neighbourhood, Stopped, surface, volume};
 use azulejo::mesh::Mesh;
+use azulejo::psp::adaptive::Density as MeshDensity;
 use azulejo::{Boundary, Context, Domain, Error, Points, Progress, Result};
 use clap::{Args, ValueEnum};
 
+use super::attributes::MeshFile;
 use super::spectrum::Spectrum;
 use super::{Common, report};
 use crate::domain::DomainArgs;
@@ -34,6 +36,10 @@ pub struct Relax {
     /// The mesh that the samples lie on and stay on: OBJ, PLY, STL, OFF or GLB.
     #[arg(long, value_name = "MESH", conflicts_with_all = ["domain", "bounded", "neighbourhood"])]
     mesh: Option<PathBuf>,
+    /// The name of a vertex attribute of a PLY mesh that holds the density there, in any unit, 0 or more; where it is 0
+    /// no sample ends.
+    #[arg(long, value_name = "ATTRIBUTE", requires = "mesh")]
+    density_from: Option<String>,
     /// Also writes the mesh whose vertices are the relaxed samples, as PLY, and reports if it is closed, its Euler
     /// characteristic and its angles.
     #[arg(long, value_name = "FILE", requires = "mesh")]
@@ -62,8 +68,8 @@ pub struct Relax {
     #[arg(long, value_enum, default_value = "delaunay")]
     neighbourhood: Neighbours,
     /// Gives the set, which is periodic and of one class, this radial power instead: `step[:FREQUENCY]` is 0 up to the
-    /// frequency and 1 above [0.5], `peak[:FREQUENCY[:WIDTH[:HEIGHT]]]` rises there over the width to a peak [0.6, 0.06,
-    /// 1], in units of sqrt(density); FILE is a set of the plane that has it.
+    /// frequency and 1 above [0.5], `peak[:FREQUENCY[:WIDTH[:HEIGHT]]]` rises there over the width to a peak [0.6,
+    /// 0.06, 1], in units of sqrt(density); FILE is a set of the plane that has it.
     #[arg(long, value_name = "step|peak|FILE", conflicts_with_all = ["mesh", "bounded", "neighbourhood"])]
     spectrum: Option<Spectrum>,
     /// Ignores the classes of the file: the points are relaxed as one set. Otherwise each class of a set of the plane
@@ -258,7 +264,9 @@ impl Relax {
         let output = self.common.destination.open_surface()?;
         let remeshed =
             self.remesh.as_deref().map(|path| self.common.destination.writing.of_format("ply", path)).transpose()?;
-        let mesh = input::mesh(mesh)?;
+        let file = MeshFile::read(mesh)?;
+        let mesh = file.mesh()?;
+        let density = self.density_from.as_deref().map(|name| file.vertex_values(name)).transpose()?;
         let set = self.format.read_samples(&self.input, mesh.origin())?;
         self.refuse_classes(&set)?;
         let (triangles, barycentrics) = set.on_mesh.as_ref().ok_or_else(|| {
@@ -267,10 +275,15 @@ impl Relax {
         let mut options = surface::Options::default().seed(self.common.seed);
         options.max_iterations = self.iterations.unwrap_or(options.max_iterations);
         let start = Instant::now();
-        let (relaxed, done) = watched("relax", |progress| {
-            surface::relax(context, &mesh, triangles, barycentrics, &options, Some(progress))
+        let (relaxed, done) = watched("relax", |progress| match &density {
+            None => surface::relax(context, &mesh, triangles, barycentrics, &options, Some(progress)),
+            Some(values) => {
+                let density = MeshDensity::PerVertex(values);
+                let progress = Some(progress);
+                surface::relax_with_density(context, &mesh, triangles, barycentrics, density, &options, progress)
+            }
         })
-        .map_err(|error| blame(&self.input, error))?;
+        .map_err(|error| blame(&self.input, file.blame(self.density_from.as_deref(), error)))?;
         let seconds = start.elapsed().as_secs_f64();
         let normals = &relaxed.normals;
         output.write_surface(&SurfaceTable {

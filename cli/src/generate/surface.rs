@@ -300,7 +300,7 @@ impl Surface {
         let masks = self.class_masks(file, own.len())?;
         let around = around.of_classes(own.len());
         let attribute = self.density_from.as_deref();
-        let density = attribute.map(|attribute| vertex_values(file, attribute)).transpose()?;
+        let density = attribute.map(|attribute| file.vertex_values(attribute)).transpose()?;
         let unit = density
             .as_ref()
             .map(|values| Radius::Density { density: MeshDensity::PerVertex(values), scale: Scale::Radius(1.0) });
@@ -316,7 +316,7 @@ impl Surface {
             psp::sample_classes(context, &mesh, &options, &classes, masks.as_deref(), Some(progress))
         };
         let made = watched("surface", sample);
-        let (mut samples, done) = made.map_err(|error| blame_attribute(file, attribute, error))?;
+        let (mut samples, done) = made.map_err(|error| file.blame(attribute, error))?;
         let radius = |(&class, unit): (&u32, f64)| own[class as usize] * unit;
         let radii =
             attribute.map(|_| samples.classes.iter().zip(std::mem::take(&mut samples.radii)).map(radius).collect());
@@ -339,7 +339,7 @@ impl Surface {
         (attribute, scale): (&str, Option<Scale>),
         given: Given<3>,
     ) -> Result<Made> {
-        let values = vertex_values(file, attribute)?;
+        let values = file.vertex_values(attribute)?;
         let radius = match scale {
             None => Radius::PerVertex(&values),
             Some(scale) => Radius::Density { density: MeshDensity::PerVertex(&values), scale },
@@ -352,7 +352,7 @@ impl Surface {
             .given(given);
         let sample = |progress: &Progress| adaptive::sample(context, mesh, &options, Some(progress));
         let made = watched("surface", sample);
-        let (mut made, done) = made.map_err(|error| blame_attribute(file, Some(attribute), error))?;
+        let (mut made, done) = made.map_err(|error| file.blame(Some(attribute), error))?;
         let about = of_radii(&made.radii);
         let about = match (scale, done.radius) {
             (Some(_), radius) if radius > 0.0 => {
@@ -362,20 +362,5 @@ impl Surface {
         };
         let radii = std::mem::take(&mut made.radii);
         Ok(Made { samples: made, radii: Some(radii), class_radii: Vec::new(), about, seconds: done.seconds })
-    }
-}
-
-/// A number for each vertex.
-fn vertex_values(file: &MeshFile, attribute: &str) -> Result<Vec<f32>> {
-    Ok(file.vertex_attribute(attribute)?.into_iter().map(|value| value as f32).collect())
-}
-
-/// An error about the numbers of the vertices, with the attribute that they are.
-fn blame_attribute(file: &MeshFile, attribute: Option<&str>, error: Error) -> Error {
-    match (attribute, error) {
-        (Some(attribute), Error::InvalidArgument { argument: "vertex_radii" | "density", reason }) => {
-            file.error(attribute, &reason)
-        }
-        (_, other) => other,
     }
 }

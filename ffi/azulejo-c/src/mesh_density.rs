@@ -28,7 +28,7 @@ pub type azulejo_mesh_density_fn = Option<unsafe extern "C-unwind" fn(user: *mut
 
 /// The number of samples of a mesh per unit of area, from place to place: at least 0, and not 0
 /// everywhere. One of `vertex_values`, `function` and `image` must be set, and one of `radius` and
-/// `count`; what is not set has its default, NULL or 0.
+/// `count`, but neither in a relaxation; what is not set has its default, NULL or 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct azulejo_mesh_density {
@@ -100,14 +100,36 @@ impl azulejo_mesh_density {
     /// # Safety
     /// Unless the checks fail, the arrays have the lengths that are said of them and are not changed during the call.
     unsafe fn with<T>(&self, body: impl FnOnce(Radius) -> Result<T, Failure>) -> Result<T, Failure> {
-        check_reserved(self.reserved)?;
-        let (at_vertices, by_corners) = (flag("at_vertices", self.at_vertices)?, flag("by_corners", self.by_corners)?);
         let scale = match (self.radius == 0.0, self.count == 0.0) {
             (true, true) => return Err(Failure::invalid("radius", "is 0, and count too; one of them is needed")),
             (false, false) => return Err(Failure::invalid("count", "is set, and radius too; one of them must be 0")),
             (false, true) => Scale::Radius(self.radius),
             (true, false) => Scale::Count(self.count),
         };
+        // SAFETY: handed on from the caller.
+        unsafe { self.with_density(|density| body(Radius::Density { density, scale })) }
+    }
+
+    /// Hands the density to `body`, where neither radius nor count is asked for.
+    ///
+    /// # Safety
+    /// As for [`with`](Self::with).
+    pub(crate) unsafe fn without_scale<T>(
+        &self,
+        body: impl FnOnce(Density) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        for (field, value) in [("radius", self.radius), ("count", self.count)] {
+            check_unused(field, value, 0.0, "in a relaxation")?;
+        }
+        // SAFETY: handed on from the caller.
+        unsafe { self.with_density(body) }
+    }
+
+    /// # Safety
+    /// As for [`with`](Self::with).
+    unsafe fn with_density<T>(&self, body: impl FnOnce(Density) -> Result<T, Failure>) -> Result<T, Failure> {
+        check_reserved(self.reserved)?;
+        let (at_vertices, by_corners) = (flag("at_vertices", self.at_vertices)?, flag("by_corners", self.by_corners)?);
         let sources = [!self.vertex_values.is_null(), self.function.is_some(), !self.image.is_null()];
         if sources.into_iter().filter(|&is_set| is_set).count() != 1 {
             let which = "one of vertex_values, function and image is needed, and not more than one";
@@ -133,12 +155,11 @@ impl azulejo_mesh_density {
             }
             check_unused("by_corners", self.by_corners, 0, "without image")?;
         }
-        let call = |density: Density| body(Radius::Density { density, scale });
         if let Some(function) = self.function {
             // SAFETY: the caller's word.
             let function = unsafe { OfPosition::new(function, self.function_user) };
             let at = |position| function.call(position);
-            return call(if at_vertices {
+            return body(if at_vertices {
                 Density::AtVertices(&at)
             } else {
                 Density::Function { at: &at, largest: self.largest, slope: self.slope }
@@ -148,7 +169,7 @@ impl azulejo_mesh_density {
             // SAFETY: the caller's word.
             let values =
                 unsafe { rows::<f32, 1>("vertex_values", self.vertex_values, "vertex_count", self.vertex_count)? };
-            return call(Density::PerVertex(values.as_flattened()));
+            return body(Density::PerVertex(values.as_flattened()));
         }
         let (width, height, count) = (self.width, self.height, self.texture_count);
         let too_large = || Failure::too_large("width", format!("{width} by {height} pixels exceed the address space"));
@@ -170,7 +191,7 @@ impl azulejo_mesh_density {
         } else {
             Texture::PerVertex(places)
         };
-        call(Density::Image { values, width, height, texture })
+        body(Density::Image { values, width, height, texture })
     }
 }
 

@@ -3,6 +3,7 @@
 use std::ffi::c_void;
 
 use azulejo_core::dcr::surface::{self, Options, Report};
+use azulejo_core::psp::adaptive::Density;
 
 use crate::boundary::{Out, rows};
 use crate::context::azulejo_context;
@@ -10,6 +11,7 @@ use crate::dcr::reason;
 use crate::growing::{self, Growing, Output, growing};
 use crate::handles;
 use crate::mesh::azulejo_mesh;
+use crate::mesh_density::azulejo_mesh_density;
 use crate::points::azulejo_points;
 use crate::progress::{Watch, azulejo_progress_fn};
 use crate::status::azulejo_status;
@@ -32,6 +34,8 @@ pub struct azulejo_dcr_surface_options {
     pub progress: azulejo_progress_fn,
     /// Passed to the progress callback.
     pub progress_user: *mut c_void,
+    /// The density that samples shall have, without `radius` and `count`. Default NULL: constant.
+    pub density: *const azulejo_mesh_density,
 }
 
 growing!(azulejo_dcr_surface_options requires max_iterations {
@@ -40,6 +44,7 @@ growing!(azulejo_dcr_surface_options requires max_iterations {
     seed: 0,
     progress: None,
     progress_user: std::ptr::null_mut(),
+    density: std::ptr::null(),
 });
 
 impl azulejo_dcr_surface_options {
@@ -66,8 +71,8 @@ pub struct azulejo_dcr_surface_report {
     pub motion: f64,
     /// The smallest straight distance between two samples: never less than before the call.
     pub smallest_distance: f64,
-    /// The same in units of d_max: about 0.77 for a maximal set, more for a relaxed one, except on
-    /// meshes with parts that are nearer to each other than samples are.
+    /// In units of d_max, with a density of its mean at both samples: about 0.77 for a maximal set,
+    /// more for a relaxed one, except where parts of the mesh are nearer to each other.
     pub rho: f64,
 }
 
@@ -113,8 +118,9 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 ///
 /// No two samples get nearer to each other than the nearest two were before: straight distances, in
 /// double arithmetic, without tolerance. More than 64 samples that are clustered are redistributed
-/// over all of the surface before the first step, by the area of each connected part, where there
-/// is room for that at the same smallest distance.
+/// before the first step, by the area of each connected part, where the same distance allows it.
+/// With a density, distances are judged in the mean of its d_max at both samples, and no sample
+/// ends where it is 0; they may shrink, and sets of other densities are redistributed.
 ///
 /// triangles, barycentrics: one triangle and u v for each sample. Barycentrics outside their
 /// triangle by at most 1e-6 are moved onto it; those farther outside, and triangles that have no
@@ -122,8 +128,7 @@ pub unsafe extern "C" fn azulejo_dcr_surface_report_init(
 ///
 /// out: after the last whole step, in the same order, with normals, triangles and barycentrics.
 ///
-/// O(triangles) time once, and O(count) for each step, somewhat more with many triangles between
-/// neighbours, beside boundaries and for clustered samples. O(count + triangles) memory.
+/// O(triangles) time once, and O(count) for each step. O(count + triangles) memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn azulejo_dcr_surface_relax(
     context: *const azulejo_context,
@@ -149,9 +154,22 @@ pub unsafe extern "C" fn azulejo_dcr_surface_relax(
         // SAFETY: likewise.
         let barycentrics = unsafe { rows::<f32, 2>("barycentrics", barycentrics, "count", count) }?;
         let watch = Watch::new(options.progress, options.progress_user);
-        let (relaxed, done) = context.run(watch, |context, progress| {
-            surface::relax(context, &mesh, triangles, barycentrics, &options.request(), progress)
-        })?;
+        let request = options.request();
+        let (relaxed, done) = if options.density.is_null() {
+            context.run(watch, |context, progress| {
+                surface::relax(context, &mesh, triangles, barycentrics, &request, progress)
+            })
+        } else {
+            // SAFETY: handed on from the caller.
+            let density: azulejo_mesh_density = unsafe { growing::read("density", options.density) }?;
+            let relax = |density: Density| {
+                context.run(watch, |context, progress| {
+                    surface::relax_with_density(context, &mesh, triangles, barycentrics, density, &request, progress)
+                })
+            };
+            // SAFETY: likewise.
+            unsafe { density.without_scale(relax) }
+        }?;
         if let Some(report) = report {
             report.write(done);
         }

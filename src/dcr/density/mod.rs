@@ -16,7 +16,7 @@ mod raster;
 
 use glam::{DVec2, Vec2};
 
-use crate::dcr::clustering::is_clustered;
+use crate::dcr::clustering::{EXCESS, is_clustered};
 use crate::dcr::density::half_edge_mesh::HalfEdgeMesh;
 use crate::dcr::density::raster::{OctaveGrids, Raster};
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, RingPoint, SAFE_FRACTION, graded_force};
@@ -301,7 +301,7 @@ impl Relaxation for DensityRelaxation {
     fn begin(&mut self, _: &Job) -> Result<()> {
         let scattered = self.raster.scatter(&self.torus, self.order.len(), self.seed);
         let random = CurveOrder::new(&self.torus, &scattered, self.seed);
-        if is_clustered::<2>(&along_curve(self.order.start()), &along_curve(random.start()), u64::BITS) {
+        if is_clustered::<2>(&along_curve(self.order.start()), &along_curve(random.start()), u64::BITS, EXCESS) {
             self.restart(random.start());
         }
         Ok(())

@@ -44,10 +44,10 @@ impl Floor {
         self.distance
     }
 
-    /// True if two positions are far enough from each other.
-    pub fn admits(self, a: DVec3, b: DVec3) -> bool {
+    /// True if two positions, of this mean grade, are far enough from each other.
+    pub fn admits(self, a: DVec3, b: DVec3, grade: f64) -> bool {
         let squared = a.distance_squared(b);
-        squared > self.above || squared.sqrt() >= self.distance
+        squared > self.above * grade * grade || squared.sqrt() >= self.distance * grade
     }
 }
 
@@ -161,8 +161,9 @@ mod tests {
         for step in 1..2000 {
             let to = DVec3::new(0.1, 0.37 * f64::from(step), 1e-3);
             let floor = Floor::new(to.length_squared().sqrt());
-            assert!(floor.admits(DVec3::ZERO, to) && floor.admits(DVec3::ZERO, to * 1.0001));
-            assert!(!floor.admits(DVec3::ZERO, to * (1.0 - 1e-15)));
+            assert!(floor.admits(DVec3::ZERO, to, 1.0) && floor.admits(DVec3::ZERO, to * 1.0001, 1.0));
+            assert!(!floor.admits(DVec3::ZERO, to * (1.0 - 1e-15), 1.0));
+            assert!(floor.admits(DVec3::ZERO, 0.5 * to, 0.5) && !floor.admits(DVec3::ZERO, to, 1.0 + 1e-8));
         }
     }
 }

@@ -7,8 +7,9 @@
 use glam::{DVec3, Vec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::grading::{Grading, grade, level};
 use crate::dcr::surface::moves::{Local, Mover};
-use crate::dcr::surface::near::{Finds, Image, Patches, SampleSearch, Surroundings, mirrored};
+use crate::dcr::surface::near::{Finds, Image, Patches, SampleSearch, Surroundings, cell_side, mirrored};
 use crate::dcr::surface::relaxation::FARTHEST;
 use crate::dcr::surface::view::{Star, View};
 use crate::error::Result;
@@ -26,6 +27,11 @@ const SKIN: f64 = 0.3;
 /// The least stride for which samples in sight are listed, in spacings.
 const LEAST_STRIDE: f64 = 0.2;
 
+/// The largest factor by which the grade of a sample grows in a step, and that by which it differs, when forces act,
+/// from the grade with which the sample was listed.
+pub const GROWTH: f32 = 1.2;
+const DRIFT: f32 = 1.1;
+
 /// The number of samples of one task.
 const CHUNK: usize = 128;
 
@@ -33,8 +39,9 @@ const CHUNK: usize = 128;
 const BATCH: usize = 1 << 16;
 
 /// The neighbours of all samples.
-pub struct Neighbourhoods<'a> {
+pub struct Neighbourhoods<'a, G> {
     connected: &'a ConnectedMesh<'a>,
+    grading: &'a G,
     patches: Patches,
     spacing: f64,
     /// The distance up to which others are in sight, in spacings.
@@ -43,8 +50,9 @@ pub struct Neighbourhoods<'a> {
     farthest: f64,
     lists: Vec<List>,
     locals: Vec<Local>,
-    /// The positions in which samples were listed.
+    /// The positions in which samples were listed, and their grades there where these vary.
     cells: MovingGrid3,
+    grades: Vec<f32>,
     /// The samples that are to be listed.
     strayed: Vec<u32>,
     /// The last search by which each sample was listed.
@@ -52,20 +60,25 @@ pub struct Neighbourhoods<'a> {
     search: u32,
 }
 
-impl<'a> Neighbourhoods<'a> {
+impl<'a, G: Grading> Neighbourhoods<'a, G> {
     /// Lists of samples that are never closer to each other than `floor` spacings.
     pub fn new(
         job: &Job,
         connected: &'a ConnectedMesh<'a>,
+        grading: &'a G,
         spacing: f64,
         floor: f64,
         movers: &[Mover],
         positions: &[Position],
     ) -> Result<Self> {
-        let most = f64::from(FARTHEST);
+        // Grades change between the search and the end of the step.
+        let [drift, growth] = if G::VARIES { [DRIFT, DRIFT * GROWTH] } else { [1.0; 2] };
+        let most = f64::from(FARTHEST * drift);
         let farthest = ((REACH - floor) / 2.0).clamp(LEAST_STRIDE, most);
-        let sight = floor + 2.0 * farthest + SKIN;
-        let side = SampleSearch::cell_side(spacing, REACH + SKIN, sight);
+        let sight = f64::from(growth) * floor + 2.0 * farthest + SKIN;
+        // On a level grades are up to twice the least one.
+        let widest = if G::VARIES { f64::from(2.0 * grading.least()) } else { 1.0 };
+        let side = cell_side(spacing * widest, REACH + SKIN, sight);
         let cells =
             MovingGrid3::new(exact(connected.mesh.bounds().0), side, positions.iter().map(|&place| vec3(place)));
         let local = |mover: &Mover| Local::on(connected, spacing, mover.place.triangle, Vec3::ZERO);
@@ -73,22 +86,30 @@ impl<'a> Neighbourhoods<'a> {
         let locals = job.concat(tasks.len(), |task| movers[tasks.range(task)].iter().map(local).collect())?;
         Ok(Self {
             connected,
-            patches: Patches::new(job, connected, spacing)?,
+            grading,
+            patches: Patches::new(job, connected, spacing * f64::from(finest::<G>(positions)))?,
             spacing,
             sight,
             farthest,
             lists: vec![List::default(); movers.len()],
             locals,
             cells,
+            grades: if G::VARIES { positions.iter().map(|position| position[3]).collect() } else { Vec::new() },
             strayed: (0..movers.len() as u32).collect(),
             searches: vec![0; movers.len()],
             search: 0,
         })
     }
 
-    /// The farthest that samples may move in a step, in spacings.
-    pub fn farthest(&self) -> f64 {
-        self.farthest
+    /// The farthest that a sample may move in a step, in mean spacings.
+    pub fn farthest(&self, sample: u32) -> f64 {
+        self.farthest * f64::from(self.grade(sample))
+    }
+
+    /// The grade with which a sample was listed.
+    #[inline]
+    fn grade(&self, sample: u32) -> f32 {
+        if G::VARIES { self.grades[sample as usize] } else { 1.0 }
     }
 
     /// The lists, to be read, and the samples' views of their triangles, to be kept up to date.
@@ -117,8 +138,14 @@ impl<'a> Neighbourhoods<'a> {
     pub fn follow(&mut self, job: &Job, positions: &[Position]) -> Result<()> {
         let (unit, most) = ((1.0 / self.spacing) as f32, (SKIN / 2.0) as f32);
         let has_strayed = |&sample: &u32| {
-            let strayed = (vec3(positions[sample as usize]) - self.cells.position(sample)) * unit;
-            strayed.length_squared() >= most * most
+            let position = positions[sample as usize];
+            let strayed = (vec3(position) - self.cells.position(sample)) * unit;
+            let listed = self.grade(sample);
+            let has_drifted = || {
+                let drift = grade::<G>(position) / listed;
+                !(1.0 / DRIFT..=DRIFT).contains(&drift)
+            };
+            strayed.length_squared() >= most * most * (listed * listed) || (G::VARIES && has_drifted())
         };
         let tasks = chunks(positions.len());
         self.strayed = job
@@ -134,7 +161,11 @@ impl<'a> Neighbourhoods<'a> {
         let strayed = std::mem::take(&mut self.strayed);
         self.search += 1;
         for &sample in &strayed {
-            self.cells.put(sample, vec3(positions[sample as usize]));
+            let position = positions[sample as usize];
+            self.cells.put(sample, vec3(position), level(self.grading, grade::<G>(position)));
+            if G::VARIES {
+                self.grades[sample as usize] = position[3];
+            }
             self.searches[sample as usize] = self.search;
         }
         self.list(&job.part(0.0, 0.8), &strayed, movers)?;
@@ -158,6 +189,8 @@ impl<'a> Neighbourhoods<'a> {
             connected: self.connected,
             patches: &self.patches,
             cells: &self.cells,
+            grading: self.grading,
+            grades: &self.grades,
             spacing: self.spacing,
             radius: REACH + SKIN,
             sight: self.sight,
@@ -222,11 +255,31 @@ impl<'a> Neighbourhoods<'a> {
     }
 }
 
+/// The least grade of samples, a bound of the size of patches.
+fn finest<G: Grading>(positions: &[Position]) -> f32 {
+    positions.iter().map(|&position| grade::<G>(position)).fold(1.0, f32::min)
+}
+
 fn vec3([x, y, z, _]: Position) -> Vec3 {
     Vec3::new(x, y, z)
 }
 
 // The list of the samples around one, from one search to the next.
+
+/// All samples, to whose numbers lists refer.
+pub struct Listed<'a, G> {
+    connected: &'a ConnectedMesh<'a>,
+    positions: &'a [Position],
+    unit: f32,
+    grading: std::marker::PhantomData<G>,
+}
+
+impl<'a, G: Grading> Listed<'a, G> {
+    /// `unit` is 1 over the mean spacing.
+    pub fn new(connected: &'a ConnectedMesh<'a>, _: &G, positions: &'a [Position], unit: f32) -> Self {
+        Self { connected, positions, unit, grading: std::marker::PhantomData }
+    }
+}
 
 /// The number of vectors of samples that are kept in place.
 const VECTORS: usize = 2;
@@ -301,54 +354,61 @@ impl List {
         is_simple
     }
 
-    /// Passes all samples that are reached, and the images, to a view. Returns the number of samples, which come first.
+    /// Passes all samples that are reached, and the images, to a view. Returns the number of samples, which come first,
+    /// and their least grade.
     #[inline(always)]
-    pub fn show<L: Lanes>(
+    pub fn show<L: Lanes, G: Grading>(
         &self,
         lanes: L,
         from: Position,
-        positions: &[Position],
-        unit: f32,
-        connected: &ConnectedMesh,
+        all: &Listed<G>,
         view: &mut View,
-    ) -> usize {
+    ) -> (usize, f32) {
         view.clear();
-        let scale = lanes.splat(unit);
-        let mut shown = 0;
+        let (own, unit, positions) = (grade::<G>(from), all.unit, all.positions);
+        let scale = lanes.splat(unit / own);
+        let (mut shown, mut least) = (0, own);
         while shown < self.count {
             let [x, y, z] = lanes.gather(positions, &self.reached[shown / LANES]);
+            if G::VARIES {
+                let grades = self.reached[shown / LANES].map(|sample| positions[sample as usize][3]);
+                view.grade_vector::<G>(shown / LANES, own, grades);
+                least = least.min(lanes.least(lanes.load(&grades)));
+            }
             let offset = |x, from| lanes.mul(lanes.sub(x, lanes.splat(from)), scale);
             let count = (self.count - shown).min(LANES);
             view.add_vector(lanes, [offset(x, from[0]), offset(y, from[1]), offset(z, from[2])], count);
             shown += LANES;
         }
         match &self.more {
-            None => self.count,
-            Some(more) => more.show(from, positions, unit, connected, view),
+            None => (self.count, least),
+            Some(more) => more.show(from, all, (view, least)),
         }
     }
 }
 
 impl More {
     #[inline(never)]
-    fn show(
+    fn show<G: Grading>(
         &self,
         from: Position,
-        positions: &[Position],
-        unit: f32,
-        connected: &ConnectedMesh,
-        view: &mut View,
-    ) -> usize {
+        &Listed { connected, positions, unit, .. }: &Listed<G>,
+        (view, mut least): (&mut View, f32),
+    ) -> (usize, f32) {
+        let own = grade::<G>(from);
+        let unit = unit / own;
+        let grade_of = |sample: u32| grade::<G>(positions[sample as usize]);
         let exact = |[x, y, z, _]: Position| DVec3::new(x.into(), y.into(), z.into());
         let from = exact(from);
         for &sample in &self.reached {
-            view.add((exact(positions[sample as usize]) - from).as_vec3() * unit);
+            view.add_graded::<G>((exact(positions[sample as usize]) - from).as_vec3() * unit, own, grade_of(sample));
+            least = least.min(grade_of(sample));
         }
         let count = view.count();
         for image in &self.images {
             let place = mirrored(exact(positions[image.sample as usize]), connected.ends(image.edge));
-            view.add((place - from).as_vec3() * unit);
+            view.add_graded::<G>((place - from).as_vec3() * unit, own, grade_of(image.sample));
         }
-        count
+        (count, least)
     }
 }

@@ -11,7 +11,8 @@
 //! * no two samples get closer to each other through space than the closest two were (`apart.rs`), regardless of the
 //!   parts of the surface that they are on;
 //! * samples that are clustered on a part of the surface are redistributed before the first step (`spread.rs`);
-//! * long waves of the density stay: there is no Fourier transform on a mesh.
+//! * long waves of the density stay: there is no Fourier transform on a mesh;
+//! * where a density is asked for, each sample has its own spacing (`grading.rs`).
 //!
 //! The surroundings of a sample are listed for several steps (`lists.rs`), and a step (`relaxation.rs`, `moves.rs`)
 //! processes sixteen neighbours at a time (`simd/`).
@@ -21,22 +22,28 @@
 
 mod apart;
 mod connected;
+mod density;
+mod grading;
 mod lists;
 mod moves;
 mod near;
+mod options;
 mod relaxation;
 mod remeshing;
 mod spread;
 mod view;
 mod walk;
 
+pub use density::relax_with_density;
+pub use options::{Options, Report};
 pub use remeshing::{RemeshReport, Triangulation, remesh, triangulate};
 
 use glam::DVec2;
 
-use crate::dcr::relaxation::{Limits, Steps, Stopped, run};
+use crate::dcr::relaxation::{Limits, Relaxation, Steps, run};
 use crate::dcr::surface::apart::Floor;
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::grading::{Even, Grading, smallest_relative};
 use crate::dcr::surface::relaxation::SurfaceRelaxation;
 use crate::dcr::surface::spread::{along_curve, spread};
 use crate::dcr::surface::walk::SurfacePoint;
@@ -46,65 +53,9 @@ use crate::job::{Context, Job, Progress};
 use crate::memory;
 use crate::mesh::{Mesh, round_barycentrics};
 use crate::points::Points;
-use crate::setters::setters;
-
-/// The options of [`relax`](fn@super::relax).
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Options {
-    /// The largest number of steps. 0 returns the samples unchanged, except that those outside their triangle by
-    /// rounding are moved to its edge.
-    pub max_iterations: u32,
-    /// The motion ([`Report::motion`]) at which the set has converged; with 0 all steps are made unless nothing moves
-    /// at all.
-    pub tolerance: f64,
-    /// The key of the moves of samples that coincide, and of the redistribution of clustered ones; used for nothing
-    /// else.
-    pub seed: u64,
-}
-
-impl Default for Options {
-    /// At most 100 steps, tolerance 0.0005.
-    fn default() -> Self {
-        Self { max_iterations: 100, tolerance: 0.0005, seed: 0 }
-    }
-}
-
-impl Options {
-    /// Refuses values out of their range.
-    pub fn check(&self) -> Result<()> {
-        if !(0.0..).contains(&self.tolerance) {
-            return Err(Error::invalid("tolerance", format!("{} is not at least 0", self.tolerance)));
-        }
-        Ok(())
-    }
-}
-
-setters!(Options { max_iterations: u32, tolerance: f64, seed: u64 });
-
-/// The report of [`relax`](fn@super::relax). `d_max = sqrt(2 A / (sqrt(3) N))` is the distance of neighbours in the
-/// hexagonal arrangement of as many samples on a plane of the mesh's area A.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Report {
-    /// The number of steps made.
-    pub iterations: u32,
-    /// The reason why the steps ended.
-    pub stopped: Stopped,
-    /// Half of the distance that samples covered in the last 10 steps, or since the start if there were fewer: root
-    /// mean square, in units of `d_max`.
-    pub motion: f64,
-    /// The smallest straight distance between two of the returned samples, in the units of the mesh, regardless of the
-    /// parts of the surface that they are on; infinite for less than two.
-    pub smallest_distance: f64,
-    /// The smallest distance in units of `d_max`; infinite for less than two samples. It ends lower where parts of the
-    /// surface are closer to each other than samples, as on thin blades; `docs/dcr.md` has the values measured on
-    /// meshes.
-    pub rho: f64,
-}
 
 /// The peak memory for a sample and all of its data.
-const BYTES_PER_SAMPLE: f64 = 630.0;
+pub const BYTES_PER_SAMPLE: f64 = 630.0;
 
 /// Relaxes samples on a mesh: sample `i` is the point `barycentrics[i]` of `triangles[i]`, as in [`Points`], and
 /// of any density. The samples are returned in their order, each with the triangle that it is on.
@@ -140,10 +91,22 @@ pub fn relax(
     check(mesh, triangles, barycentrics)?;
     options.check()?;
     memory::require(BYTES_PER_SAMPLE * triangles.len() as f64, "triangles", &format!("{} points", triangles.len()))?;
+    relaxed(context, mesh, (triangles, barycentrics), &Even, options, progress)
+}
+
+/// Relaxes samples that have been checked.
+pub fn relaxed<G: Grading>(
+    context: &Context,
+    mesh: &Mesh,
+    (triangles, barycentrics): (&[u32], &[[f32; 2]]),
+    grading: &G,
+    options: &Options,
+    progress: Option<&Progress>,
+) -> Result<(Points<3>, Report)> {
     let connected = ConnectedMesh::new(mesh)?;
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
-    let mut set = context.run(None, |job| begin(job, &connected, spacing, &places, options))?;
+    let mut set = context.run(None, |job| begin(job, &connected, grading, spacing, &places, options))?;
     let limits = Limits { max_iterations: options.max_iterations, tolerance: options.tolerance };
     run(
         context,
@@ -159,32 +122,57 @@ pub fn relax(
                 }
                 _ => leave(mesh, &set.places()),
             };
-            let smallest_distance = set.smallest_distance(job)?;
-            let rho = smallest_distance / spacing;
+            // In the order of the curve, data of near samples are in the cache.
+            let positions: Vec<_> = set.positions().map(|[x, y, z, _]| [x, y, z]).collect();
+            let smallest_distance = smallest_distance(job, &positions)?;
+            let rho = match G::VARIES {
+                true => smallest_among(job, mesh, grading, spacing, &set.places())?,
+                false => smallest_distance,
+            } / spacing;
             Ok((samples, Report { iterations, stopped, motion, smallest_distance, rho }))
         },
     )
 }
 
 /// The set before the first step: no two samples will get closer to each other than the closest two are now, and those
-/// that are clustered are redistributed.
-fn begin<'a>(
+/// that are clustered, or where none are wanted, are redistributed.
+fn begin<'a, G: Grading>(
     job: &Job,
     connected: &'a ConnectedMesh<'a>,
+    grading: &'a G,
     spacing: f64,
     places: &[SurfacePoint],
     options: &Options,
-) -> Result<SurfaceRelaxation<'a>> {
+) -> Result<SurfaceRelaxation<'a, G>> {
     let mesh = connected.mesh;
-    // Along the curve, data of near samples are in the cache.
-    let ordered = along_curve(mesh, places).into_iter().map(|(_, i)| places[i as usize].position(mesh));
-    let positions: Vec<_> = ordered.map(|position| position.as_vec3().to_array()).collect();
-    let floor = Floor::new(smallest_distance(job, &positions)?);
+    let mut floor = Floor::new(smallest_among(job, mesh, grading, spacing, places)?);
     let placed = match options.max_iterations {
         0 => None,
-        _ => spread(job, mesh, places, floor, spacing, options.seed)?,
+        _ => spread(job, mesh, grading, places, floor, spacing, options.seed)?,
     };
-    SurfaceRelaxation::new(job, connected, spacing, floor, placed.as_deref().unwrap_or(places), options.seed)
+    grading.check()?;
+    if let Some(placed) = placed.as_ref().filter(|_| G::VARIES) {
+        floor = Floor::new(smallest_among(job, mesh, grading, spacing, placed)?);
+    }
+    let places = placed.as_deref().unwrap_or(places);
+    SurfaceRelaxation::new(job, connected, grading, spacing, floor, places, options.seed)
+}
+
+/// The smallest distance of two samples through space, over the mean of their grades; infinite for less than two.
+fn smallest_among<G: Grading>(
+    job: &Job,
+    mesh: &Mesh,
+    grading: &G,
+    spacing: f64,
+    places: &[SurfacePoint],
+) -> Result<f64> {
+    // Along the curve, data of near samples are in the cache.
+    let ordered = along_curve(mesh, places).into_iter().map(|(_, i)| grading.position(mesh, places[i as usize]));
+    if G::VARIES {
+        let low = mesh.bounds().0.map(f64::from).into();
+        return smallest_relative(job, grading, low, spacing, &ordered.collect::<Vec<_>>());
+    }
+    smallest_distance(job, &ordered.map(|[x, y, z, _]| [x, y, z]).collect::<Vec<_>>())
 }
 
 /// The distance of neighbours in the hexagonal arrangement of as many samples on the area of the mesh.

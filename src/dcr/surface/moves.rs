@@ -2,10 +2,11 @@
 
 use glam::{DQuat, DVec2, Vec2, Vec3};
 
-use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, SAFE_FRACTION};
+use crate::dcr::law::{Constraints, FREE_CLEARANCE, Force, MOMENTUM, RingPoint, SAFE_FRACTION, graded_force};
 use crate::dcr::surface::apart::{Contacts, Limits, NEAR};
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::lists::List;
+use crate::dcr::surface::grading::{Even, Grading, between, grade};
+use crate::dcr::surface::lists::{GROWTH, List, Listed};
 use crate::dcr::surface::view::{MOST, Star, View};
 use crate::dcr::surface::walk::{FlatTriangle, SurfacePoint, walk};
 use crate::mesh::{exact, round_barycentrics};
@@ -20,11 +21,26 @@ const CALM: f32 = 1e-3;
 /// A sample that moves farther than this in a step, in spacings, wakes those around it.
 const WAKING: f32 = 5e-3;
 
+/// The distance up to which the density at the centre of a hole is looked for, in spacings of the sample.
+const FARTHEST_HOLE: f32 = 8.0;
+
+/// The turns by which a sample tries to pass a place where none are wanted: none, then 30, 60 and 85 degrees to both
+/// sides, as unit vectors.
+const TURNS: [Vec2; 7] = [
+    Vec2::X,
+    Vec2::new(0.866, 0.5),
+    Vec2::new(0.866, -0.5),
+    Vec2::new(0.5, 0.866),
+    Vec2::new(0.5, -0.866),
+    Vec2::new(0.087, 0.996),
+    Vec2::new(0.087, -0.996),
+];
+
 /// A moving sample.
 #[derive(Clone, Copy, Default)]
 pub struct Mover {
     pub place: SurfacePoint,
-    /// The velocity in the plane of its triangle and in spacings.
+    /// The velocity in the plane of its triangle and in mean spacings.
     pub velocity: Vec2,
     pub star: Star,
     /// The number of steps for which it stays at rest.
@@ -47,13 +63,15 @@ pub struct FollowUp {
     pub stirring: Vec<u32>,
 }
 
-/// The state of all samples that is read while they move, and the rules of the step.
-pub struct StepState<'a> {
+/// The state of all samples that is read while they move, and the rules of the step. A spacing is that of the sample.
+pub struct StepState<'a, G> {
     pub connected: &'a ConnectedMesh<'a>,
+    pub grading: &'a G,
     pub positions: &'a [Position],
     pub lists: &'a [List],
+    /// The mean spacing.
     pub spacing: f64,
-    /// 1 over a spacing.
+    /// 1 over the mean spacing.
     pub unit: f32,
     /// The least distance of samples, in spacings.
     pub floor: f32,
@@ -66,8 +84,8 @@ pub struct StepState<'a> {
 }
 
 /// The moves of consecutive samples, each made as it is wanted.
-pub struct Moves<'a> {
-    pub state: &'a StepState<'a>,
+pub struct Moves<'a, G> {
+    pub state: &'a StepState<'a, G>,
     /// The number of the first sample.
     pub first: usize,
     pub movers: &'a mut [Mover],
@@ -76,14 +94,16 @@ pub struct Moves<'a> {
     pub wanted: &'a mut [Position],
 }
 
-impl Work for Moves<'_> {
+impl<G: Grading> Work for Moves<'_, G> {
     type Out = FollowUp;
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> FollowUp {
         let (mut view, mut ring, mut contacts) = (View::default(), Ring::default(), Contacts::default());
-        let mut after = FollowUp::default();
+        let (mut graded, mut after) = (Vec::new(), FollowUp::default());
         let state = self.state;
+        let StepState { connected, grading, positions, unit, .. } = *state;
+        let all = Listed::new(connected, grading, positions, unit);
         let mut k = 0;
         while k < self.movers.len() {
             let (sample, mover, local) = (self.first + k, &mut self.movers[k], &mut self.locals[k]);
@@ -94,25 +114,30 @@ impl Work for Moves<'_> {
                 continue;
             }
             let (from, list) = (state.positions[sample], &state.lists[sample]);
-            let count = list.show(lanes, from, state.positions, state.unit, state.connected, &mut view);
+            let own = grade::<G>(from);
+            let (count, mut least) = list.show(lanes, from, &all, &mut view);
             view.project(lanes, local.tangents);
             view.find_star(lanes, &mut mover.star);
-            let Force { sum, clearance } = ring.force(lanes, &state.constraints, &view);
-            let velocity = MOMENTUM * mover.velocity + sum;
+            let Force { sum, clearance } = match G::VARIES {
+                true => state.graded(mover.place, own, &view, &mut graded),
+                false => ring.force(lanes, &state.constraints, &view),
+            };
+            let velocity = MOMENTUM * (mover.velocity / own) + sum;
             let wanted = velocity.clamp_length_max((SAFE_FRACTION * clearance).min(state.stride));
             let reach = state.limits.near + 2.0 * wanted.length();
-            let close = view.nearer(lanes, count, reach * reach);
-            let mut nearest = view.least_squared(lanes, count);
+            let close = view.nearer::<L, G>(lanes, count, reach * reach);
+            let mut nearest = view.least_squared::<L, G>(lanes, count);
             contacts.clear();
             let mut bits = close;
             while bits != 0 {
-                let offset = view.offset_in_space(bits.trailing_zeros() as usize);
+                let offset = view.offset_in_space::<G>(bits.trailing_zeros() as usize);
                 contacts.add(local.axes, offset, state.limits.near);
                 bits &= bits - 1;
             }
             for &other in list.others() {
                 let offset = state.offset(from, other);
                 let squared = offset.length_squared();
+                least = if G::VARIES { least.min(grade::<G>(state.positions[other as usize])) } else { least };
                 nearest = nearest.min(squared);
                 if squared < reach * reach {
                     contacts.add(local.axes, offset, state.limits.far);
@@ -120,13 +145,16 @@ impl Work for Moves<'_> {
             }
             let held_off = contacts.hold_off(wanted).clamp_length_max(state.stride);
             let place = mover.place;
-            let left = state.displace(mover, local, held_off);
-            let to = local.position(mover.place.uv);
+            let (left, to) = match G::VARIES {
+                true => state.displace_to_wanted(mover, local, own, held_off),
+                false => (state.displace(mover, local, held_off), local.position(mover.place.uv)),
+            };
             self.wanted[k] = to;
-            let length = state.length(from, to);
+            let length = state.length(from, to) / own;
             // Two samples are no closer than the floor if each has moved by no more than half of the excess, over the
             // floor, of its distance to the nearest other one.
-            if length > 0.0 && nearest.sqrt() < (state.floor + 2.0 * length) * ROUNDING {
+            let (growth, share) = if G::VARIES { (GROWTH, own * between::<G>(own, least)) } else { (1.0, 1.0) };
+            if length > 0.0 && nearest.sqrt() < (growth * state.floor + 2.0 * (share * length)) * ROUNDING {
                 after.unchecked.push(UncheckedMove { sample: sample as u32, place, left });
             }
             // A sample that others push, now or when limits have grown, never rests.
@@ -141,25 +169,72 @@ impl Work for Moves<'_> {
     }
 }
 
-impl StepState<'_> {
-    /// The offset of another sample, in spacings.
+impl<G: Grading> StepState<'_, G> {
+    /// The offset of another sample, in the mean of the two spacings.
     fn offset(&self, from: Position, other: u32) -> Vec3 {
-        offset(from, self.positions[other as usize]) * self.unit
+        let other = self.positions[other as usize];
+        offset(from, other) * (self.unit * between::<G>(grade::<G>(from), grade::<G>(other)))
     }
 
-    /// The distance of two positions, in spacings.
+    /// The distance of two positions, in mean spacings.
     #[inline(always)]
     pub fn length(&self, from: Position, to: Position) -> f32 {
         (offset(from, to) * self.unit).length()
     }
 
-    /// Moves a sample by a displacement in the plane of its triangle. Returns the state kept of the triangle if the
-    /// sample has left it.
+    /// Moves a sample by a displacement in the plane of its triangle, in mean spacings. Returns the state kept of the
+    /// triangle if the sample has left it.
     #[inline(always)]
     fn displace(&self, mover: &mut Mover, local: &mut Local, displacement: Vec2) -> Option<Box<Local>> {
         let Some(uv) = local.moved(mover.place.uv, displacement) else { return self.walk(mover, local, displacement) };
         (mover.place.uv, mover.velocity) = (uv, displacement);
         None
+    }
+
+    /// The force where grades vary, by the law of the plane.
+    #[inline(never)]
+    fn graded(&self, place: SurfacePoint, own: f32, view: &View, ring: &mut Vec<RingPoint>) -> Force {
+        let (star, is_closed) = view.star();
+        if !is_closed {
+            return pushed::<G>(&self.constraints, view);
+        }
+        let seen = |&candidate: &u8| {
+            let (offset, factor) = (view.offset(candidate.into()), view.factor::<G>(candidate.into()));
+            RingPoint { offset: own * offset, spacing: own * (2.0 / factor - 1.0) }
+        };
+        ring.clear();
+        ring.extend(star.iter().map(seen));
+        let density_at = |offset: Vec2| {
+            let offset = offset.clamp_length_max(FARTHEST_HOLE * own).as_dvec2();
+            let centre = walk(self.connected, self.spacing, place, offset).place;
+            self.grading.at(self.connected.mesh, centre).map_or(0.0, |grade| 1.0 / (grade * grade))
+        };
+        let Force { sum, clearance } = graded_force(&self.constraints, own, ring, density_at);
+        Force { sum, clearance: clearance / own }
+    }
+
+    /// Moves a sample by a displacement in its spacings, or past a place where no samples are wanted, along its rim;
+    /// and its position then. It stays if there is no way.
+    #[inline(never)]
+    fn displace_to_wanted(
+        &self,
+        mover: &mut Mover,
+        local: &mut Local,
+        own: f32,
+        displacement: Vec2,
+    ) -> (Option<Box<Local>>, Position) {
+        let (mesh, from) = (self.connected.mesh, (*mover, *local));
+        for turn in TURNS {
+            let left = self.displace(mover, local, own * turn.x * turn.rotate(displacement));
+            if let Some(grade) = self.grading.at(mesh, mover.place) {
+                let [x, y, z, _] = local.position(mover.place.uv);
+                return (left, [x, y, z, grade.min(GROWTH * own)]);
+            }
+            (*mover, *local) = from;
+        }
+        mover.velocity = Vec2::ZERO;
+        let [x, y, z, _] = local.position(mover.place.uv);
+        (None, [x, y, z, own])
     }
 
     #[inline(never)]
@@ -199,7 +274,7 @@ impl Ring {
     pub fn force<L: Lanes>(&mut self, lanes: L, constraints: &Constraints, view: &View) -> Force {
         let (star, is_closed) = view.star();
         if !is_closed {
-            return pushed(constraints, view);
+            return pushed::<Even>(constraints, view);
         }
         let before = view.offset(star[star.len() - 1].into());
         [self.offsets[0][0], self.offsets[1][0]] = before.to_array();
@@ -270,9 +345,9 @@ impl Ring {
 
 /// The force on a sample that is not surrounded.
 #[inline(never)]
-fn pushed(constraints: &Constraints, view: &View) -> Force {
+fn pushed<G: Grading>(constraints: &Constraints, view: &View) -> Force {
     let push = |candidate: usize| {
-        let offset = view.offset(candidate);
+        let offset = view.factor::<G>(candidate) * view.offset(candidate);
         constraints.push(offset, offset.length_squared())
     };
     Force { sum: (0..view.count()).map(push).sum(), clearance: FREE_CLEARANCE }
@@ -369,7 +444,7 @@ mod tests {
             view.find_star(lanes, &mut Star::default());
             let (star, is_closed) = view.star();
             let ring: Vec<Vec2> = star.iter().map(|&neighbour| view.offset(neighbour.into())).collect();
-            let expected = if is_closed { self.0.force(&ring) } else { pushed(self.0, &view) };
+            let expected = if is_closed { self.0.force(&ring) } else { pushed::<Even>(self.0, &view) };
             ([Ring::default().force(lanes, self.0, &view), expected], is_closed)
         }
     }

@@ -9,11 +9,12 @@
 use glam::{DVec2, DVec3, Vec3};
 
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::grading::{Even, Grading, between, level};
 use crate::dcr::surface::spread::along_curve;
 use crate::dcr::surface::view::MOST;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
-use crate::index::MovingGrid3;
+use crate::index::{LEVELS, MovingGrid3};
 use crate::job::{Job, chunks};
 use crate::mesh::{Mesh, exact};
 
@@ -42,10 +43,13 @@ pub struct Surroundings {
 }
 
 /// All samples, found by their position. Lengths are in the units of the mesh.
-pub struct SampleSearch<'a> {
+pub struct SampleSearch<'a, G> {
     pub connected: &'a ConnectedMesh<'a>,
     pub patches: &'a Patches,
     pub cells: &'a MovingGrid3,
+    pub grading: &'a G,
+    /// The grade of each sample where it varies.
+    pub grades: &'a [f32],
     pub spacing: f64,
     /// The radius of the ball, and the distance up to which others are in sight; in spacings.
     pub radius: f64,
@@ -66,11 +70,51 @@ struct Near {
     position: Vec3,
 }
 
-impl SampleSearch<'_> {
-    /// The side of the cells in which samples are found.
-    pub fn cell_side(spacing: f64, radius: f64, sight: f64) -> f64 {
-        // Slightly larger, for the rounding of positions in cells.
-        radius.max(sight) * spacing * (1.0 + 1e-6)
+impl<'a> SampleSearch<'a, Even> {
+    /// A search within a radius, in spacings, where all are the same.
+    pub fn even(
+        connected: &'a ConnectedMesh<'a>,
+        patches: &'a Patches,
+        cells: &'a MovingGrid3,
+        spacing: f64,
+        radius: f64,
+    ) -> Self {
+        Self { connected, patches, cells, grading: &Even, grades: &[], spacing, radius, sight: 0.0 }
+    }
+}
+
+/// The side of the cells in which samples are found.
+pub fn cell_side(spacing: f64, radius: f64, sight: f64) -> f64 {
+    // Slightly larger, for the rounding of positions in cells.
+    radius.max(sight) * spacing * (1.0 + 1e-6)
+}
+
+/// The radius of the ball in which a flood spreads, over that of the search by the sample's own grade: those of coarser
+/// samples count too.
+const COARSER: f32 = 1.5;
+
+/// The number of levels below its own on which a sample finds others. Those on finer levels find it.
+const FINER: u32 = 2;
+
+impl<G: Grading> SampleSearch<'_, G> {
+    /// The grade of a sample.
+    #[inline]
+    fn grade(&self, sample: u32) -> f32 {
+        if G::VARIES { self.grades[sample as usize] } else { 1.0 }
+    }
+
+    /// Visits all samples that may be near one.
+    #[inline]
+    fn visit(&self, sample: u32, position: Vec3, mut visit: impl FnMut(u32, Vec3)) {
+        if !G::VARIES {
+            return self.cells.around(position, visit);
+        }
+        let own = self.grade(sample);
+        let side = cell_side(self.spacing, self.radius, self.sight);
+        for level in level(self.grading, own).saturating_sub(FINER)..LEVELS {
+            let largest = self.grading.least() * (2u32 << level) as f32;
+            self.cells.within(position, side * f64::from(0.5 * (own + largest)), level, &mut visit);
+        }
     }
 
     /// The surroundings of a sample. `seen` has the triangle of each sample and its normal.
@@ -78,12 +122,15 @@ impl SampleSearch<'_> {
         let unit = (1.0 / self.spacing) as f32;
         let (position, triangle) = (self.cells.position(sample), seen(sample).0);
         let Finds { flood, near } = finds;
-        flood.spread(self.patches, triangle, position, self.radius as f32, unit);
+        let own = self.grade(sample);
+        let reach = if G::VARIES { COARSER * own } else { 1.0 };
+        flood.spread(self.patches, triangle, position, reach * self.radius as f32, unit);
         near.clear();
         let mut around = Surroundings::default();
         let (limit, in_sight) = ((self.radius * self.radius) as f32, (self.sight * self.sight) as f32);
         let mut normal = Vec3::ZERO;
-        self.cells.around(position, |other, place| {
+        self.visit(sample, position, |other, place| {
+            let unit = unit * between::<G>(own, self.grade(other));
             let squared = ((place - position) * unit).length_squared();
             if squared <= limit {
                 let (triangle, front) = seen(other);
@@ -101,7 +148,7 @@ impl SampleSearch<'_> {
         around.normal = normal.normalize_or_zero();
         let boundary = flood.boundary();
         if !boundary.is_empty() {
-            self.mirror_all(boundary, position.as_dvec3(), near, &mut around.images);
+            self.mirror_all(boundary, position.as_dvec3(), own, near, &mut around.images);
         }
         self.keep_nearest(sample, position, in_sight, near, &mut around);
         around
@@ -118,8 +165,9 @@ impl SampleSearch<'_> {
     ) {
         near.retain(|near| near.sample != sample);
         if near.len() + around.images.len() > MOST {
-            let unit = (1.0 / self.spacing) as f32;
+            let own = self.grade(sample);
             let image_squared = |image: &Image| {
+                let unit = (1.0 / self.spacing) as f32 * between::<G>(own, self.grade(image.sample));
                 let place = self.cells.position(image.sample).as_dvec3();
                 let place = mirrored(place, self.connected.ends(image.edge));
                 ((place - position.as_dvec3()).as_vec3() * unit).length_squared()
@@ -139,22 +187,29 @@ impl SampleSearch<'_> {
     }
 
     /// Mirrors the samples at the edges of the boundary that the ball meets.
-    fn mirror_all(&self, boundary: &[u32], centre: DVec3, near: &[Near], images: &mut Vec<Image>) {
-        let radius = self.radius * self.spacing;
+    fn mirror_all(&self, boundary: &[u32], centre: DVec3, own: f32, near: &[Near], images: &mut Vec<Image>) {
+        let radius = self.radius * self.spacing * f64::from(own);
         let is_met = |&edge: &u32| {
             let [a, b] = self.connected.ends(edge);
             nearest_on(a, b, centre).distance_squared(centre) <= radius * radius
         };
         let met: Vec<u32> = boundary.iter().copied().filter(is_met).collect();
         if !met.is_empty() {
-            near.iter().for_each(|near| self.mirror(&met, near.sample, near.position.as_dvec3(), centre, images));
+            near.iter()
+                .for_each(|near| self.mirror(&met, near.sample, near.position.as_dvec3(), (centre, radius), images));
         }
     }
 
     /// Adds the mirror images of a sample: by the position on the boundary that is nearest to it, and by all other
     /// edges that it is beside. Along a boundary with many corners one image replaces several.
-    fn mirror(&self, boundary: &[u32], sample: u32, position: DVec3, centre: DVec3, images: &mut Vec<Image>) {
-        let radius = self.radius * self.spacing;
+    fn mirror(
+        &self,
+        boundary: &[u32],
+        sample: u32,
+        position: DVec3,
+        (centre, radius): (DVec3, f64),
+        images: &mut Vec<Image>,
+    ) {
         let mirrors = boundary.iter().map(|&edge| {
             let [a, b] = self.connected.ends(edge);
             let mirror = nearest_on(a, b, position);
@@ -577,9 +632,9 @@ mod tests {
         let positions: Vec<DVec3> = places.iter().map(|place| place.position(mesh)).collect();
         let context = Context::new(1).unwrap();
         let patches = &context.run(None, |job| Patches::new(job, connected, RADIUS)).unwrap();
-        let side = SampleSearch::cell_side(RADIUS, 1.0, 0.0);
+        let side = cell_side(RADIUS, 1.0, 0.0);
         let cells = &MovingGrid3::new(DVec3::ZERO, side, positions.iter().map(|position| position.as_vec3()));
-        let search = SampleSearch { connected, patches, cells, spacing: RADIUS, radius: 1.0, sight: 0.0 };
+        let search = SampleSearch::even(connected, patches, cells, RADIUS, 1.0);
         let seen = |sample: u32| (places[sample as usize].triangle, Vec3::Z);
         let mut finds = Finds::default();
         let around = |sample| {

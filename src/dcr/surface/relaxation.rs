@@ -6,12 +6,12 @@ use crate::dcr::law::{Constraints, STIFFENING};
 use crate::dcr::relaxation::{Relaxation, Space};
 use crate::dcr::surface::apart::{Floor, Limits};
 use crate::dcr::surface::connected::ConnectedMesh;
+use crate::dcr::surface::grading::{Grading, grade};
 use crate::dcr::surface::lists::Neighbourhoods;
 use crate::dcr::surface::moves::{Mover, Moves, StepState, UncheckedMove};
 use crate::dcr::surface::spread::along_curve;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
-use crate::index::smallest_distance;
 use crate::job::Job;
 use crate::math::power;
 use crate::mesh::exact;
@@ -47,27 +47,30 @@ const LONGEST_REST: u32 = 12;
 const CHUNK: usize = 512;
 
 /// Moving samples on a surface. They are in the order of a curve; the user's order is that of `order`.
-pub struct SurfaceRelaxation<'a> {
+pub struct SurfaceRelaxation<'a, G> {
     connected: &'a ConnectedMesh<'a>,
+    grading: &'a G,
     level: Level,
+    /// The mean spacing.
     spacing: f64,
     floor: Floor,
     /// The user's number of each sample.
     order: Vec<u32>,
     movers: Vec<Mover>,
-    /// The positions in space, in the floats in which they will be returned.
+    /// The positions in space, in the floats in which they will be returned, and grades.
     positions: Vec<Position>,
     /// The positions after the step, while it is made.
     wanted: Vec<Position>,
-    near: Neighbourhoods<'a>,
+    near: Neighbourhoods<'a, G>,
     seed: u64,
 }
 
-impl<'a> SurfaceRelaxation<'a> {
+impl<'a, G: Grading> SurfaceRelaxation<'a, G> {
     /// A set of samples no two of which are closer than the floor, now and after each step.
     pub fn new(
         job: &Job,
         connected: &'a ConnectedMesh<'a>,
+        grading: &'a G,
         spacing: f64,
         floor: Floor,
         places: &[SurfacePoint],
@@ -76,25 +79,29 @@ impl<'a> SurfaceRelaxation<'a> {
         let order: Vec<u32> = along_curve(connected.mesh, places).into_iter().map(|(_, i)| i).collect();
         let movers: Vec<Mover> =
             order.iter().map(|&i| Mover { place: places[i as usize], ..Mover::default() }).collect();
-        let positions: Vec<Position> = movers.iter().map(|mover| mover.place.rounded(connected.mesh)).collect();
+        let positions: Vec<Position> =
+            movers.iter().map(|mover| grading.position(connected.mesh, mover.place)).collect();
         Ok(Self {
             connected,
+            grading,
             level: Level::widest(),
             spacing,
             floor,
-            near: Neighbourhoods::new(job, connected, spacing, floor.distance() / spacing, &movers, &positions)?,
+            near: Neighbourhoods::new(
+                job,
+                connected,
+                grading,
+                spacing,
+                floor.distance() / spacing,
+                &movers,
+                &positions,
+            )?,
             wanted: positions.clone(),
             positions,
             movers,
             order,
             seed,
         })
-    }
-
-    /// The smallest distance of two samples; infinite for less than two.
-    pub fn smallest_distance(&self, job: &Job) -> Result<f64> {
-        let positions: Vec<_> = self.positions.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
-        smallest_distance(job, &positions)
     }
 
     /// The samples, in the user's order.
@@ -128,7 +135,8 @@ impl<'a> SurfaceRelaxation<'a> {
             let aim = DVec2::new(along * (1.0 - across), along * across);
             let at = |uv: DVec2| mesh.point_exact(place.triangle, uv.into());
             let distance = at(place.uv).distance(at(aim));
-            place.uv = place.uv.lerp(aim, (PARTING * self.spacing / distance).min(1.0));
+            let spacing = self.spacing * f64::from(grade::<G>(self.grading.position(mesh, *place)));
+            place.uv = place.uv.lerp(aim, (PARTING * spacing / distance).min(1.0));
         }
         (!parted.is_empty()).then_some(places)
     }
@@ -141,7 +149,7 @@ impl<'a> SurfaceRelaxation<'a> {
             for (sample, (&i, mover)) in (0..).zip(self.order.iter().zip(&mut self.movers)) {
                 unchecked.push(UncheckedMove { sample, place: mover.place, left: None });
                 *mover = Mover { place: places[i as usize], ..Mover::default() };
-                self.wanted[sample as usize] = mover.place.rounded(self.connected.mesh);
+                self.wanted[sample as usize] = self.grading.position(self.connected.mesh, mover.place);
             }
             self.settle(whole, unchecked)
         })
@@ -153,6 +161,7 @@ impl<'a> SurfaceRelaxation<'a> {
         let (lists, locals) = self.near.lists_and_locals();
         let state = StepState {
             connected: self.connected,
+            grading: self.grading,
             positions: &self.positions,
             lists,
             spacing: self.spacing,
@@ -207,16 +216,20 @@ impl<'a> SurfaceRelaxation<'a> {
 
     /// True if the move of a sample ends too close neither to another sample nor to the end of another's move.
     fn admits(&self, sample: u32) -> bool {
-        let (from, to) = (place(self.positions[sample as usize]), place(self.wanted[sample as usize]));
-        let admits = |other: u32| {
-            let other = other as usize;
-            self.floor.admits(to, place(self.positions[other])) && self.floor.admits(to, place(self.wanted[other]))
+        let (from, to) = (self.positions[sample as usize], self.wanted[sample as usize]);
+        let own = grade::<G>(to);
+        let admits = |other: Position| {
+            let mean = 0.5 * (f64::from(own) + f64::from(grade::<G>(other)));
+            self.floor.admits(place(to), place(other), mean)
         };
-        from.distance(to) <= self.near.farthest() * self.spacing && self.near.in_sight(sample).all(admits)
+        let admits = |other: u32| admits(self.positions[other as usize]) && admits(self.wanted[other as usize]);
+        own > 0.0
+            && place(from).distance(place(to)) <= self.near.farthest(sample) * self.spacing
+            && self.near.in_sight(sample).all(admits)
     }
 }
 
-impl Relaxation for SurfaceRelaxation<'_> {
+impl<G: Grading> Relaxation for SurfaceRelaxation<'_, G> {
     type Position = Position;
     type Space = Unit;
 
@@ -238,6 +251,7 @@ impl Relaxation for SurfaceRelaxation<'_> {
         self.near.search(&job.part(0.0, 0.5), &mut self.movers, &self.positions)?;
         job.context().run(None, |whole| {
             let unchecked = self.gather(whole, iteration)?;
+            self.grading.check()?;
             self.settle(whole, unchecked)
         })
     }
@@ -266,6 +280,7 @@ impl Space<Position> for Unit {
 mod tests {
     use super::*;
 
+    use crate::dcr::surface::grading::Even;
     use crate::job::Context;
     use crate::mesh::Mesh;
 
@@ -295,14 +310,14 @@ mod tests {
         let pairs = || (0..places.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         let floor = smallest(&mesh, &places);
         let context = Context::new(1).unwrap();
-        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, Floor::new(floor), &places, 0);
+        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, &Even, spacing, Floor::new(floor), &places, 0);
         let mut set = context.run(None, new).unwrap();
         let (mut sights, mut unknown) = (0, 0);
         for iteration in 0..30 {
             context.run(None, |job| set.near.search(job, &mut set.movers, &set.positions)).unwrap();
             for (i, j) in pairs() {
                 let distance = place(set.positions[i]).distance(place(set.positions[j]));
-                if distance < floor + 2.0 * set.near.farthest() * spacing {
+                if distance < floor + 2.0 * set.near.farthest(0) * spacing {
                     let sees = |i: usize, j: usize| set.near.in_sight(i as u32).any(|other| other == j as u32);
                     assert!(sees(i, j) && sees(j, i));
                     sights += 1;
@@ -331,7 +346,7 @@ mod tests {
             (0..600).map(|_| SurfacePoint { triangle: 0, uv: rng.in_triangle().into() }).collect();
         let (floor, spacing) = (Floor::new(smallest(&mesh, &places)), (mesh.area() / 519.6).sqrt());
         let context = Context::new(1).unwrap();
-        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, spacing, floor, &places, 0);
+        let new = |job: &Job| SurfaceRelaxation::new(job, &connected, &Even, spacing, floor, &places, 0);
         let mut set = context.run(None, new).unwrap();
         let mut resting = 0;
         for step in 0..80 {
@@ -366,7 +381,7 @@ mod tests {
         let relaxed = Level::available().into_iter().map(|level| {
             let context = Context::new(1).unwrap();
             let steps = context.run(None, |job| {
-                let mut set = SurfaceRelaxation::new(job, &connected, 0.05, floor, &places, 0)?;
+                let mut set = SurfaceRelaxation::new(job, &connected, &Even, 0.05, floor, &places, 0)?;
                 set.level = level;
                 (0..60).try_for_each(|iteration| set.step(job, iteration))?;
                 Ok(set.places())

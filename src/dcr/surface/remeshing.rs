@@ -9,9 +9,9 @@
 use glam::Vec3;
 
 use crate::dcr::surface::connected::ConnectedMesh;
-use crate::dcr::surface::lists::List;
+use crate::dcr::surface::lists::{List, Listed};
 use crate::dcr::surface::moves::Local;
-use crate::dcr::surface::near::{Finds, Patches, SampleSearch};
+use crate::dcr::surface::near::{Finds, Patches, SampleSearch, cell_side};
 use crate::dcr::surface::view::View;
 use crate::dcr::surface::{check, enter, hexagonal_distance};
 use crate::error::{Error, Result};
@@ -178,11 +178,12 @@ pub fn found_corners(
     let places = enter(triangles, barycentrics);
     let positions: Vec<Position> = places.iter().map(|place| place.rounded(mesh)).collect();
     let patches = context.run(None, |job| Patches::new(job, &connected, spacing))?;
-    let side = SampleSearch::cell_side(spacing, REACH, 0.0);
+    let side = cell_side(spacing, REACH, 0.0);
     let cells =
         MovingGrid3::new(exact(mesh.bounds().0), side, positions.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)));
     let (connected, patches, cells) = (&connected, &patches, &cells);
-    let search = SampleSearch { connected, patches, cells, spacing, radius: REACH, sight: 0.0 };
+    let search = SampleSearch::even(connected, patches, cells, spacing, REACH);
+    let all = Listed::new(connected, search.grading, &positions, (1.0 / spacing) as f32);
     let seen = |sample: u32| {
         let triangle = places[sample as usize].triangle;
         (triangle, Vec3::from(mesh.normal(triangle)))
@@ -195,7 +196,7 @@ pub fn found_corners(
                 let around = search.around(sample as u32, seen, &mut finds);
                 let local = Local::on(connected, spacing, places[sample].triangle, around.normal);
                 let list = List::new(sample as u32, around);
-                list.show(Portable, positions[sample], &positions, (1.0 / spacing) as f32, connected, &mut view);
+                list.show(Portable, positions[sample], &all, &mut view);
                 view.project(Portable, local.tangents);
                 view.wrap(Portable);
                 let (star, is_closed) = view.star();

@@ -3,48 +3,67 @@
 //! There is no Fourier transform on a mesh that would level a cluster, and forces move a sample by a fraction of the
 //! spacing in a step. So before the first step such samples are redistributed (`dcr/clustering.rs`): as many points are
 //! thrown on the surface at random, both are sorted along a Z-curve through space, and each sample is put on the point
-//! of its rank. Each part of the surface, connected with others or not, receives samples by its area.
+//! of its rank. Each part of the surface, connected with others or not, receives samples by its area, or by the
+//! integral of the density over it.
 
-use crate::dcr::clustering::is_clustered;
+use crate::dcr::clustering::{EXCESS, is_clustered};
 use crate::dcr::surface::apart::Floor;
+use crate::dcr::surface::grading::Grading;
 use crate::dcr::surface::walk::SurfacePoint;
 use crate::error::Result;
 use crate::index::curve::{SPACE_BITS, morton3, sorted};
 use crate::index::{Grid3, Weights};
 use crate::job::{Job, chunks};
 use crate::mesh::{Mesh, exact};
+use crate::psp::Fragment;
 use crate::rng::{Draw, Rng};
 
 /// The smallest distance, in spacings, from which on samples are left in place: random points would be too close.
 const APART: f64 = 0.6;
+
+/// The factor that takes the place of [`EXCESS`] where a density is asked for: points are thrown so evenly that their
+/// numbers vary little, and forces do not level what is left.
+const GRADED_EXCESS: f64 = 6.0;
 
 /// The largest number of throws for a sample that get too close to samples placed before.
 const ATTEMPTS: u64 = 64;
 
 /// New places for samples that are clustered, no two closer to each other through space than the floor. None if they
 /// are not clustered, or if there is not enough space.
-pub fn spread(
+///
+/// Where the grade varies, new places keep no distance; and samples that lie where none are wanted get one each, even
+/// if the set is not clustered.
+pub fn spread<G: Grading>(
     job: &Job,
     mesh: &Mesh,
+    grading: &G,
     places: &[SurfacePoint],
     floor: Floor,
     spacing: f64,
     seed: u64,
 ) -> Result<Option<Vec<SurfacePoint>>> {
-    if floor.distance() >= APART * spacing {
+    let is_stray = |place: &SurfacePoint| G::VARIES && grading.at(mesh, *place).is_none();
+    let strays = places.iter().any(is_stray);
+    if floor.distance() >= APART * spacing && !strays {
         return Ok(None);
     }
-    let throws = RandomPoints::new(mesh, seed);
+    let throws = RandomPoints::new(&job.part(0.0, 0.1), mesh, grading, seed, places.len())?;
     let tasks = chunks(places.len());
-    let thrown = job.part(0.0, 0.5).concat(tasks.len(), |task| tasks.range(task).map(|i| throws.at(i, 0)).collect())?;
+    let thrown = job.part(0.1, 0.5).concat(tasks.len(), |task| tasks.range(task).map(|i| throws.at(i, 0)).collect())?;
     let samples = along_curve(mesh, places);
     let [along, along_thrown] =
         [&samples, &along_curve(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
-    if !is_clustered::<3>(&along, &along_thrown, 3 * SPACE_BITS) {
-        return Ok(None);
-    }
-    let Some(placed) = throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)? else { return Ok(None) };
     let mut spread = places.to_vec();
+    let excess = if G::VARIES { GRADED_EXCESS } else { EXCESS };
+    if !is_clustered::<3>(&along, &along_thrown, 3 * SPACE_BITS, excess) {
+        spread.iter_mut().zip(&thrown).filter(|(place, _)| is_stray(place)).for_each(|(place, &to)| *place = to);
+        return Ok(strays.then_some(spread));
+    }
+    let placed = match G::VARIES {
+        true => Some(thrown),
+        false => throws.apart(&job.part(0.5, 1.0), places.len(), floor, spacing)?,
+    };
+    let Some(placed) = placed else { return Ok(None) };
     for ((_, sample), (_, point)) in samples.iter().zip(along_curve(mesh, &placed)) {
         spread[*sample as usize] = placed[point as usize];
     }
@@ -52,25 +71,58 @@ pub fn spread(
 }
 
 /// Random points of a mesh.
-struct RandomPoints<'a> {
+struct RandomPoints<'a, G> {
     mesh: &'a Mesh,
+    grading: &'a G,
     seed: u64,
-    triangles: Vec<u32>,
-    /// The areas of these triangles, as weights.
-    areas: Weights,
+    /// The number of samples.
+    count: usize,
+    pieces: Pieces,
+    /// The areas of the pieces, or the integrals of the density over them.
+    weights: Weights,
 }
 
-impl<'a> RandomPoints<'a> {
-    fn new(mesh: &'a Mesh, seed: u64) -> Self {
-        let (triangles, areas) = mesh.triangles_with_area(0..mesh.triangles().len()).unzip();
-        Self { mesh, seed, triangles, areas: Weights::new(areas) }
+/// The pieces on one of which a point is thrown.
+enum Pieces {
+    Triangles(Vec<u32>),
+    Fragments(Vec<Fragment>),
+}
+
+impl<'a, G: Grading> RandomPoints<'a, G> {
+    fn new(job: &Job, mesh: &'a Mesh, grading: &'a G, seed: u64, count: usize) -> Result<Self> {
+        let (pieces, weights) = match grading.pieces(job)? {
+            None => {
+                let (triangles, areas) = mesh.triangles_with_area(0..mesh.triangles().len()).unzip();
+                (Pieces::Triangles(triangles), areas)
+            }
+            Some(pieces) => {
+                let pieces: Vec<_> = pieces.into_iter().filter(|piece| piece.1 > 0.0).collect();
+                let centres: Vec<_> = pieces.iter().map(|(fragment, _)| within(fragment, [1.0 / 3.0; 2])).collect();
+                let along = along_curve(mesh, &centres).into_iter().map(|(_, i)| pieces[i as usize]);
+                let (fragments, shares) = along.unzip();
+                (Pieces::Fragments(fragments), shares)
+            }
+        };
+        Ok(Self { mesh, grading, seed, count, pieces, weights: Weights::new(weights) })
     }
 
-    /// The point of a sample in one of its throws.
+    /// The point of a sample in one of its throws. On pieces, each sample has an equal part of their sum along the
+    /// curve: so their numbers vary less than those of random points.
     fn at(&self, sample: usize, attempt: u64) -> SurfacePoint {
         let mut rng = Rng::at(self.seed, Draw::Spread, &[sample as u64, attempt]);
-        let triangle = self.triangles[self.areas.pick(&mut rng) as usize];
-        SurfacePoint { triangle, uv: rng.in_triangle().into() }
+        match &self.pieces {
+            Pieces::Triangles(triangles) => {
+                let triangle = triangles[self.weights.pick(&mut rng) as usize];
+                SurfacePoint { triangle, uv: rng.in_triangle().into() }
+            }
+            Pieces::Fragments(fragments) => {
+                let share = (sample as f64 + rng.unit()) / self.count as f64;
+                let at = |inner| within(&fragments[self.weights.at(share) as usize], inner);
+                // At the centre of a piece samples are wanted, at others of its points maybe not.
+                let is_wanted = |place: &SurfacePoint| self.grading.at(self.mesh, *place).is_some();
+                (0..ATTEMPTS).map(|_| at(rng.in_triangle())).find(is_wanted).unwrap_or(at([1.0 / 3.0; 2]))
+            }
+        }
     }
 
     /// The points of a number of samples, each the first of its sample that is far enough from those before; none if a
@@ -86,7 +138,7 @@ impl<'a> RandomPoints<'a> {
             let is_free = |place: &SurfacePoint| {
                 let position = place.position(self.mesh);
                 let mut near = grid.candidates(position.into(), floor.distance());
-                near.all(|other| floor.admits(position, places[other as usize].position(self.mesh)))
+                near.all(|other| floor.admits(position, places[other as usize].position(self.mesh), 1.0))
             };
             let Some(place) = (0..ATTEMPTS).map(|attempt| self.at(sample, attempt)).find(is_free) else {
                 return Ok(None);
@@ -96,6 +148,11 @@ impl<'a> RandomPoints<'a> {
         }
         Ok(Some(places))
     }
+}
+
+/// A point of a fragment.
+fn within(fragment: &Fragment, inner: [f64; 2]) -> SurfacePoint {
+    SurfacePoint { triangle: fragment.triangle, uv: fragment.at(inner).into() }
 }
 
 // A Z-curve through the bounds of a mesh: points close on the surface are mostly close along it.
@@ -115,6 +172,7 @@ pub fn along_curve(mesh: &Mesh, points: &[SurfacePoint]) -> Vec<(u64, u32)> {
 mod tests {
     use super::*;
 
+    use crate::dcr::surface::grading::Even;
     use crate::job::Context;
 
     /// A unit square of `side`² cells and, far from it, another of twice its size.
@@ -136,13 +194,14 @@ mod tests {
     }
 
     fn uniform(mesh: &Mesh, count: usize) -> Vec<SurfacePoint> {
-        let throws = RandomPoints::new(mesh, 77);
+        let new = |job: &Job| RandomPoints::new(job, mesh, &Even, 77, count);
+        let throws = Context::new(1).unwrap().run(None, new).unwrap();
         (0..count).map(|sample| throws.at(sample, 0)).collect()
     }
 
     fn spread_of(mesh: &Mesh, places: &[SurfacePoint], floor: f64) -> Option<Vec<SurfacePoint>> {
         let spacing = (2.0 * mesh.area() / (3f64.sqrt() * places.len() as f64)).sqrt();
-        let run = |job: &Job| spread(job, mesh, places, Floor::new(floor), spacing, 3);
+        let run = |job: &Job| spread(job, mesh, &Even, places, Floor::new(floor), spacing, 3);
         let [one, three] = [1, 3].map(|threads| Context::new(threads).unwrap().run(None, run).unwrap());
         assert_eq!(one, three);
         one

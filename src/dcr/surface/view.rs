@@ -7,6 +7,7 @@
 
 use glam::{Vec2, Vec3};
 
+use crate::dcr::surface::grading::{Grading, between};
 use crate::simd::{LANES, Lanes};
 
 /// The largest number of candidates.
@@ -55,8 +56,10 @@ pub struct Star {
 pub struct View {
     /// The number of candidates.
     count: usize,
-    /// The offsets of the candidates in space, in spacings; 0, which stands for none, beyond the last.
+    /// The offsets of the candidates in space, in spacings of the sample; 0, which stands for none, beyond the last.
     offsets: [PerCandidate; 3],
+    /// Where grades vary, the factor that takes these to the mean of the two spacings.
+    factors: PerCandidate,
     /// The squared lengths of the offsets in space.
     squared: PerCandidate,
     /// The offsets in the plane.
@@ -76,6 +79,7 @@ impl Default for View {
         Self {
             count: 0,
             offsets: [zero; 3],
+            factors: zero,
             squared: zero,
             plane: [zero; 2],
             inverted: [zero; 2],
@@ -102,6 +106,20 @@ impl View {
         lanes.store(offsets[1], self.offsets[1].vector_mut(vector));
         lanes.store(offsets[2], self.offsets[2].vector_mut(vector));
         self.count += count;
+    }
+
+    /// Notes the grades of sixteen candidates from the first of a vector on, beside that of the sample itself.
+    #[inline(always)]
+    pub fn grade_vector<G: Grading>(&mut self, vector: usize, own: f32, grades: [f32; LANES]) {
+        *self.factors.vector_mut(vector) = grades.map(|other| own * between::<G>(own, other));
+    }
+
+    /// Adds a candidate of this grade, one of [`MOST`] at most.
+    pub fn add_graded<G: Grading>(&mut self, offset: Vec3, own: f32, other: f32) {
+        if G::VARIES {
+            self.factors.vector_mut(self.count / LANES)[self.count % LANES] = own * between::<G>(own, other);
+        }
+        self.add(offset);
     }
 
     /// Adds a candidate, one of [`MOST`] at most.
@@ -161,10 +179,28 @@ impl View {
         self.count
     }
 
-    /// The offset of a candidate in space, in spacings.
+    /// The offset of a candidate in space, in the mean of the two spacings.
     #[inline(always)]
-    pub fn offset_in_space(&self, candidate: usize) -> Vec3 {
-        Vec3::from_array([0, 1, 2].map(|axis: usize| self.offsets[axis].of(candidate)))
+    pub fn offset_in_space<G: Grading>(&self, candidate: usize) -> Vec3 {
+        let offset = Vec3::from_array([0, 1, 2].map(|axis: usize| self.offsets[axis].of(candidate)));
+        self.factor::<G>(candidate) * offset
+    }
+
+    /// The factor that takes the offset of a candidate to the mean of the two spacings.
+    #[inline(always)]
+    pub fn factor<G: Grading>(&self, candidate: usize) -> f32 {
+        if G::VARIES { self.factors.of(candidate) } else { 1.0 }
+    }
+
+    /// The squared distances of sixteen candidates, in the mean of the two spacings.
+    #[inline(always)]
+    fn relative<L: Lanes, G: Grading>(&self, lanes: L, vector: usize) -> L::Floats {
+        let squared = lanes.load(self.squared.vector(vector));
+        if !G::VARIES {
+            return squared;
+        }
+        let factors = lanes.load(self.factors.vector(vector));
+        lanes.mul(squared, lanes.mul(factors, factors))
     }
 
     /// The offset of a candidate in the plane, in spacings.
@@ -178,13 +214,14 @@ impl View {
         Vec2::new(self.inverted[0].of(candidate), self.inverted[1].of(candidate))
     }
 
-    /// The square of the least distance of the first `count` candidates; infinite for none.
+    /// The square of the least distance of the first `count` candidates, in the mean of the two spacings; infinite for
+    /// none.
     #[inline(always)]
-    pub fn least_squared<L: Lanes>(&self, lanes: L, count: usize) -> f32 {
+    pub fn least_squared<L: Lanes, G: Grading>(&self, lanes: L, count: usize) -> f32 {
         let mut least = lanes.splat(f32::INFINITY);
         let mut vector = 0;
         while vector * LANES < count {
-            let squared = lanes.load(self.squared.vector(vector));
+            let squared = self.relative::<L, G>(lanes, vector);
             let is_one = lanes.less(lanes.load(&NUMBERS[vector]), lanes.splat(count as f32));
             least = lanes.min(least, lanes.select(is_one, squared, lanes.splat(f32::INFINITY)));
             vector += 1;
@@ -192,13 +229,14 @@ impl View {
         lanes.least(least)
     }
 
-    /// The candidates, of the first `count`, whose squared distance is less than `limit`, as bits.
+    /// The candidates, of the first `count`, whose squared distance in the mean of the two spacings is less than
+    /// `limit`, as bits.
     #[inline(always)]
-    pub fn nearer<L: Lanes>(&self, lanes: L, count: usize, limit: f32) -> u64 {
+    pub fn nearer<L: Lanes, G: Grading>(&self, lanes: L, count: usize, limit: f32) -> u64 {
         let mut near = 0;
         let mut vector = 0;
         while vector * LANES < count {
-            let squared = lanes.load(self.squared.vector(vector));
+            let squared = self.relative::<L, G>(lanes, vector);
             near |= u64::from(lanes.bits(lanes.less(squared, lanes.splat(limit)))) << (vector * LANES);
             vector += 1;
         }

@@ -1,6 +1,6 @@
 //! A set of points under relaxation in a cuboid, or inside a mesh in it.
 
-use crate::dcr::clustering::is_clustered;
+use crate::dcr::clustering::{EXCESS, is_clustered};
 use crate::dcr::law::{Constraints, FREE_CLEARANCE, carried};
 use crate::dcr::relaxation::Relaxation;
 use crate::dcr::volume::inside::{Freedom, Inside, Near};
@@ -162,7 +162,7 @@ impl<'a> VolumeRelaxation<'a> {
         let thrown: Vec<Place> = (0..places.len()).map(throw).collect();
         let [own, random] = [places, &thrown].map(|all| along_curve(&self.torus, all));
         let [along, along_random] = [&own, &random].map(|all| all.iter().map(|&(at, _)| at).collect::<Vec<u64>>());
-        is_clustered::<3>(&along, &along_random, 3 * SPACE_BITS).then(|| {
+        is_clustered::<3>(&along, &along_random, 3 * SPACE_BITS, EXCESS).then(|| {
             let mut spread = places.to_vec();
             own.iter().zip(&random).for_each(|(from, to)| spread[from.1 as usize] = thrown[to.1 as usize]);
             spread

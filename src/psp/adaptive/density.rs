@@ -144,24 +144,39 @@ impl<'a> DensityField<'a> {
     }
 
     /// The integral over the surface, from the values at the centres of about [`PIECES`] pieces.
-    fn integral(&self, job: &Job) -> Result<f64> {
-        let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
+    pub fn integral(&self, job: &Job) -> Result<f64> {
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         let parts = job.map(chunks.len(), |chunk| {
-            let (mut slices, mut sum, asks_places) = (Vec::new(), 0.0, self.slope().is_some());
-            for (triangle, area) in self.mesh.triangles_with_area(chunks.range(chunk)) {
-                slice(self.mesh, triangle, longest, &mut slices);
-                for slice in slices.drain(..) {
-                    for part in slice.parts_up_to(self.mesh, longest) {
-                        let place = if asks_places { part.shape(self.mesh).centre.to_array() } else { [0.0; 3] };
-                        let density = self.at(triangle, part.at([1.0 / 3.0; 2]), place).unwrap_or(0.0);
-                        sum += density * (area * part.share());
-                    }
-                }
-            }
+            let mut sum = 0.0;
+            self.for_each_piece(chunks.range(chunk), |_, integral| sum += integral);
             sum
         })?;
         Ok(parts.iter().sum())
+    }
+
+    /// The pieces of the surface over which it is integrated, with their shares of the integral.
+    pub fn pieces(&self, job: &Job) -> Result<Vec<(Fragment, f64)>> {
+        let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
+        job.concat(chunks.len(), |chunk| {
+            let mut pieces = Vec::new();
+            self.for_each_piece(chunks.range(chunk), |piece, integral| pieces.push((piece, integral)));
+            pieces
+        })
+    }
+
+    fn for_each_piece(&self, triangles: std::ops::Range<usize>, mut each: impl FnMut(Fragment, f64)) {
+        let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
+        let (mut slices, asks_places) = (Vec::new(), self.slope().is_some());
+        for (triangle, area) in self.mesh.triangles_with_area(triangles) {
+            slice(self.mesh, triangle, longest, &mut slices);
+            for slice in slices.drain(..) {
+                for part in slice.parts_up_to(self.mesh, longest) {
+                    let place = if asks_places { part.shape(self.mesh).centre.to_array() } else { [0.0; 3] };
+                    let density = self.at(triangle, part.at([1.0 / 3.0; 2]), place).unwrap_or(0.0);
+                    each(part, density * (area * part.share()));
+                }
+            }
+        }
     }
 
     fn corners(&self, values: &[f32], triangle: u32) -> [f64; 3] {
