@@ -1,8 +1,9 @@
 //! Samples of a mesh that are relaxed on it, and the mesh of them.
 
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 
 use azulejo_c::mesh::*;
+use azulejo_c::mesh_density::azulejo_mesh_density_init;
 use azulejo_c::remesh::{azulejo_dcr_remesh, azulejo_dcr_remesh_report_init};
 use azulejo_c::surface::*;
 
@@ -10,9 +11,14 @@ use crate::calls::{Arrays, Out, Owned, Patience, array, context, create, report}
 use crate::input::Input;
 use crate::surface::Corners;
 
-/// Samples anywhere, some on edges and on each other, walk over the mesh.
+/// Samples anywhere, some on edges and on each other, walk over the mesh, with and without a density.
 pub(crate) fn relax(mesh: &Owned<azulejo_mesh>, corners: &Corners, input: &mut Input) {
     let patience = Patience::new(if input.one_in(4) { input.below(20) } else { u32::MAX });
+    let values: Vec<f32> =
+        (0..mesh.read(azulejo_mesh_vertex_count)).map(|_| f32::from(input.below(4) as u8) / 3.0).collect();
+    let mut density = report(azulejo_mesh_density_init);
+    (density.vertex_values, density.vertex_count) = (values.as_ptr(), values.len());
+    let has_density = input.one_in(3);
     let options = azulejo_dcr_surface_options {
         struct_size: size_of::<azulejo_dcr_surface_options>() as u32,
         max_iterations: input.below(12),
@@ -20,6 +26,7 @@ pub(crate) fn relax(mesh: &Owned<azulejo_mesh>, corners: &Corners, input: &mut I
         seed: input.any(),
         progress: Some(Patience::tell),
         progress_user: patience.user(),
+        density: if has_density { &raw const density } else { null() },
     };
     let count = input.below(40) as usize;
     let hostile = input.one_in(8);
@@ -46,8 +53,8 @@ pub(crate) fn relax(mesh: &Owned<azulejo_mesh>, corners: &Corners, input: &mut I
     let set = Arrays::of(&points);
     assert_eq!(set.triangles.len(), count);
     corners.check(&set);
-    // Hostile samples may be moved onto their triangles first.
-    if !hostile {
+    // Hostile samples may be moved onto their triangles first; a density may bring samples closer.
+    if !hostile && !has_density {
         let start: Vec<[f32; 3]> = triangles.iter().zip(&barycentrics).map(|(&t, &at)| corners.place(t, at)).collect();
         let (before, after) = (smallest(&start), smallest(set.positions.as_chunks::<3>().0));
         assert!(after >= before, "relaxed to {after}, from {before}");
