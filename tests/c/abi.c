@@ -343,13 +343,14 @@ FIELD(azulejo_mesh_density, reserved, 100);
 FIELD(azulejo_mesh_density, radius, 104);
 FIELD(azulejo_mesh_density, count, 112);
 
-SIZE(azulejo_dcr_surface_options, 40);
+SIZE(azulejo_dcr_surface_options, 48);
 FIELD(azulejo_dcr_surface_options, struct_size, 0);
 FIELD(azulejo_dcr_surface_options, max_iterations, 4);
 FIELD(azulejo_dcr_surface_options, tolerance, 8);
 FIELD(azulejo_dcr_surface_options, seed, 16);
 FIELD(azulejo_dcr_surface_options, progress, 24);
 FIELD(azulejo_dcr_surface_options, progress_user, 32);
+FIELD(azulejo_dcr_surface_options, density, 40);
 
 SIZE(azulejo_dcr_surface_report, 40);
 FIELD(azulejo_dcr_surface_report, struct_size, 0);

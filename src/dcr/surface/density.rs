@@ -7,10 +7,10 @@ use crate::job::{Context, Progress};
 use crate::memory;
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::psp::adaptive::Density;
+use crate::psp::adaptive::{Density, PIECES};
 
-/// The peak memory for a triangle: the pieces over which the density is integrated.
-const BYTES_PER_TRIANGLE: f64 = 150.0;
+/// The peak memory for a piece over which the density is integrated.
+const BYTES_PER_PIECE: f64 = 170.0;
 
 /// Relaxes samples on a mesh to a density, in any unit: returns as many samples, in their order, about as dense at each
 /// place as it asks for, and evenly spread. A start of about that density, such as
@@ -43,7 +43,8 @@ pub fn relax_with_density(
 ) -> Result<(Points<3>, Report)> {
     check(mesh, triangles, barycentrics)?;
     options.check()?;
-    let bytes = BYTES_PER_SAMPLE * triangles.len() as f64 + BYTES_PER_TRIANGLE * mesh.triangles().len() as f64;
+    let pieces = PIECES + mesh.triangles().len() as f64;
+    let bytes = BYTES_PER_SAMPLE * triangles.len() as f64 + BYTES_PER_PIECE * pieces;
     memory::require(bytes, "triangles", &format!("{} points of a density", triangles.len()))?;
     let grading = context.run(None, |job| Graded::new(job, mesh, density))?;
     relaxed(context, mesh, (triangles, barycentrics), &grading, options, progress)

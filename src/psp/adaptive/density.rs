@@ -11,8 +11,8 @@ use crate::psp::fragment::{Fragment, Shape, slice};
 
 /// Triangles per task of the integral.
 const CHUNK: usize = 1 << 13;
-/// The approximate number of pieces over which the surface is integrated.
-const PIECES: f64 = 1e5;
+/// The approximate number of pieces over which the surface is integrated, and at least one of each triangle.
+pub const PIECES: f64 = 1e5;
 /// The share by which a function may exceed its largest value: places are rounded.
 const ROUNDING: f64 = 1e-9;
 /// The largest texture coordinate: up to it, pixels can be told apart.

@@ -32,7 +32,7 @@ pub use options::{Density, DensityFunction, Options, Radius, RadiusFunction, Sca
 pub use sample::sample;
 
 // Classes whose radii vary are filled by the same parts (`psp/classes/graded.rs`).
-pub(crate) use density::DensityField;
+pub(crate) use density::{DensityField, PIECES};
 pub(crate) use field::{FirstError, Quota, RadiusBounds, RadiusField, of_function};
 pub(crate) use ground::GradedGround;
 pub(crate) use pieces::{MeasuredTriangles, checked_samples};
