@@ -817,10 +817,7 @@ export function dcrRelaxDensity(
 };
 
 export interface SurfaceRelaxOptions extends Watched {
-    /**
-     * The density that the samples shall have, without `radius` and `count`; by default the same everywhere. No sample ends where
-     * it is 0, and `rho` is the least distance over the mean of the distances that it asks for at the two samples.
-     */
+    /** The density that samples shall have, without `radius` and `count`; none end where it is 0. Default: the same everywhere. */
     density?: MeshDensity | null;
     /** The largest number of steps; default 100. */
     maxIterations?: number;
