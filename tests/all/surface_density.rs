@@ -180,6 +180,41 @@ fn a_density_is_the_same_however_it_is_given() {
     }
 }
 
+/// A function whose stated largest value is far above all that it gives, and an image whose brightest pixel is nowhere on
+/// the mesh.
+#[test]
+fn largest_values_that_are_nowhere_do_not_matter() {
+    let mesh = square(20);
+    let one = |_: [f64; 3]| 1.0;
+    let pixels: Vec<f32> = (0..64).map(|i| if i == 63 { 1e9 } else { 1.0 }).collect();
+    let places: Vec<[f32; 2]> = mesh.positions().iter().map(|&[x, y, _]| [0.1 + 0.5 * x, 0.1 + 0.5 * y]).collect();
+    let image = Density::Image { values: &pixels, width: 8, height: 8, texture: Texture::PerVertex(&places) };
+    for density in [Density::Function { at: &one, largest: 1e9, slope: 0.0 }, image] {
+        let (_, report) = run(&mesh, &random(&mesh, 1000, 6), density);
+        assert!(report.rho > 0.82, "{report:?}");
+    }
+}
+
+/// Samples that lie where none are wanted come one after the other, and go everywhere.
+#[test]
+fn samples_that_leave_an_empty_place_are_spread_over_all_others() {
+    let mesh = square(30);
+    let at = |[x, ..]: [f64; 3]| if x < 0.02 { 0.0 } else { 1.0 };
+    let density = Density::Function { at: &at, largest: 1.0, slope: 1e6 };
+    let mut samples = random(&mesh, 4000, 11);
+    let mut order: Vec<usize> = (0..4000).collect();
+    order.sort_by(|&a, &b| samples.positions[a][0].total_cmp(&samples.positions[b][0]));
+    samples.triangles = order.iter().map(|&i| samples.triangles[i]).collect();
+    samples.barycentrics = order.iter().map(|&i| samples.barycentrics[i]).collect();
+    let strays = order.iter().take_while(|&&i| samples.positions[i][0] < 0.02).count();
+    let (moved, _) = run_steps(&mesh, &samples, density, 1);
+    assert!(strays > 50);
+    let quarters = moved.positions[..strays].iter().map(|&[x, y, _]| [x, y].map(|x| usize::from(x > 0.5)));
+    let mut counts = [[0usize; 2]; 2];
+    quarters.for_each(|[x, y]| counts[y][x] += 1);
+    assert!(counts.as_flattened().iter().all(|count| count.abs_diff(strays / 4) <= 4), "{strays} {counts:?}");
+}
+
 #[test]
 fn the_same_density_everywhere_gives_what_none_gives() {
     let mesh = mesh(meshes::fine_torus(60, 30));

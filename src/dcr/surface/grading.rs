@@ -18,9 +18,11 @@ use crate::simd::Position;
 
 use glam::{DVec3, Vec3};
 
-/// The largest grade over the least: as the densest place asks for 4,096 times as many samples as the sparsest, where
-/// any are wanted.
+/// The largest grade over the least one of most samples: as where places ask for 4,096 times as many samples as others.
 pub const WIDEST: f32 = (1u32 << (LEVELS - 1)) as f32;
+
+/// The share of all samples whose grades may be below the least one: they are on a few peaks of the density.
+const PEAKS: f64 = 1e-3;
 
 /// The grades at the places of a mesh.
 pub trait Grading: Sync {
@@ -30,7 +32,7 @@ pub trait Grading: Sync {
     /// The grade at a place of the mesh; none where no samples are wanted.
     fn at(&self, mesh: &Mesh, place: SurfacePoint) -> Option<f32>;
 
-    /// The least grade.
+    /// The least grade of most samples.
     fn least(&self) -> f32;
 
     /// The pieces of the surface over which samples are thrown, with the shares of samples that they shall have; none
@@ -99,6 +101,7 @@ pub struct Graded<'a> {
     density: DensityField<'a>,
     /// The mean density of the surface.
     mean: f64,
+    least: f32,
     first_error: FirstError,
 }
 
@@ -106,11 +109,22 @@ impl<'a> Graded<'a> {
     /// Checks the density of the caller.
     pub fn new(job: &Job, mesh: &'a Mesh, density: Density<'a>) -> Result<Self> {
         let density = DensityField::new(mesh, density)?;
-        let mean = density.integral(job)? / mesh.area();
-        if mean <= 0.0 {
+        let mut pieces = density.at_pieces(job)?;
+        let integral: f64 = pieces.iter().map(|piece| piece.1).sum();
+        if integral <= 0.0 {
             return Err(Error::invalid("density", "0 everywhere on the mesh; there is no place for a sample"));
         }
-        Ok(Self { density, mean, first_error: FirstError::default() })
+        // The stated largest value of a function, and the brightest pixel of an image, need not be on the surface.
+        pieces.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        let mut above = 0.0;
+        let is_common = |&&(_, share): &&(f64, f64)| {
+            above += share;
+            above > PEAKS * integral
+        };
+        let largest = pieces.iter().find(is_common).map_or(density.largest, |piece| piece.0);
+        let mean = integral / mesh.area();
+        let least = (mean / largest).sqrt() as f32;
+        Ok(Self { density, mean, least, first_error: FirstError::default() })
     }
 }
 
@@ -134,7 +148,7 @@ impl Grading for Graded<'_> {
     }
 
     fn least(&self) -> f32 {
-        (self.mean / self.density.largest).sqrt() as f32
+        self.least
     }
 
     fn pieces(&self, job: &Job) -> Result<Option<Vec<(Fragment, f64)>>> {

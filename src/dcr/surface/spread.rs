@@ -43,21 +43,23 @@ pub fn spread<G: Grading>(
     seed: u64,
 ) -> Result<Option<Vec<SurfacePoint>>> {
     let is_stray = |place: &SurfacePoint| G::VARIES && grading.at(mesh, *place).is_none();
-    let strays = places.iter().any(is_stray);
-    if floor.distance() >= APART * spacing && !strays {
+    let strays = places.iter().filter(|place| is_stray(place)).count();
+    if floor.distance() >= APART * spacing && strays == 0 {
         return Ok(None);
     }
-    let throws = RandomPoints::new(&job.part(0.0, 0.1), mesh, grading, seed, places.len())?;
+    let throws = RandomPoints::new(&job.part(0.0, 0.1), mesh, grading, seed)?;
     let tasks = chunks(places.len());
-    let thrown = job.part(0.1, 0.5).concat(tasks.len(), |task| tasks.range(task).map(|i| throws.at(i, 0)).collect())?;
+    let throw = |i: usize| throws.at([i, places.len()], 0);
+    let thrown = job.part(0.1, 0.5).concat(tasks.len(), |task| tasks.range(task).map(throw).collect())?;
     let samples = along_curve(mesh, places);
     let [along, along_thrown] =
         [&samples, &along_curve(mesh, &thrown)].map(|all| all.iter().map(|&(along, _)| along).collect::<Vec<_>>());
     let mut spread = places.to_vec();
     let excess = if G::VARIES { GRADED_EXCESS } else { EXCESS };
     if !is_clustered::<3>(&along, &along_thrown, 3 * SPACE_BITS, excess) {
-        spread.iter_mut().zip(&thrown).filter(|(place, _)| is_stray(place)).for_each(|(place, &to)| *place = to);
-        return Ok(strays.then_some(spread));
+        let places = spread.iter_mut().filter(|place| is_stray(place));
+        (0..).zip(places).for_each(|(i, place)| *place = throws.at([i, strays], 0));
+        return Ok((strays > 0).then_some(spread));
     }
     let placed = match G::VARIES {
         true => Some(thrown),
@@ -75,8 +77,6 @@ struct RandomPoints<'a, G> {
     mesh: &'a Mesh,
     grading: &'a G,
     seed: u64,
-    /// The number of samples.
-    count: usize,
     pieces: Pieces,
     /// The areas of the pieces, or the integrals of the density over them.
     weights: Weights,
@@ -89,7 +89,7 @@ enum Pieces {
 }
 
 impl<'a, G: Grading> RandomPoints<'a, G> {
-    fn new(job: &Job, mesh: &'a Mesh, grading: &'a G, seed: u64, count: usize) -> Result<Self> {
+    fn new(job: &Job, mesh: &'a Mesh, grading: &'a G, seed: u64) -> Result<Self> {
         let (pieces, weights) = match grading.pieces(job)? {
             None => {
                 let (triangles, areas) = mesh.triangles_with_area(0..mesh.triangles().len()).unzip();
@@ -103,12 +103,12 @@ impl<'a, G: Grading> RandomPoints<'a, G> {
                 (Pieces::Fragments(fragments), shares)
             }
         };
-        Ok(Self { mesh, grading, seed, count, pieces, weights: Weights::new(weights) })
+        Ok(Self { mesh, grading, seed, pieces, weights: Weights::new(weights) })
     }
 
-    /// The point of a sample in one of its throws. On pieces, each sample has an equal part of their sum along the
-    /// curve: so their numbers vary less than those of random points.
-    fn at(&self, sample: usize, attempt: u64) -> SurfacePoint {
+    /// The point of a sample, of so many, in one of its throws. On pieces, each sample has an equal part of their sum
+    /// along the curve: so their numbers vary less than those of random points.
+    fn at(&self, [sample, count]: [usize; 2], attempt: u64) -> SurfacePoint {
         let mut rng = Rng::at(self.seed, Draw::Spread, &[sample as u64, attempt]);
         match &self.pieces {
             Pieces::Triangles(triangles) => {
@@ -116,7 +116,7 @@ impl<'a, G: Grading> RandomPoints<'a, G> {
                 SurfacePoint { triangle, uv: rng.in_triangle().into() }
             }
             Pieces::Fragments(fragments) => {
-                let share = (sample as f64 + rng.unit()) / self.count as f64;
+                let share = ((sample as f64 + rng.unit()) / count as f64).min(1.0 - f64::EPSILON);
                 let at = |inner| within(&fragments[self.weights.at(share) as usize], inner);
                 // At the centre of a piece samples are wanted, at others of its points maybe not.
                 let is_wanted = |place: &SurfacePoint| self.grading.at(self.mesh, *place).is_some();
@@ -140,7 +140,7 @@ impl<'a, G: Grading> RandomPoints<'a, G> {
                 let mut near = grid.candidates(position.into(), floor.distance());
                 near.all(|other| floor.admits(position, places[other as usize].position(self.mesh), 1.0))
             };
-            let Some(place) = (0..ATTEMPTS).map(|attempt| self.at(sample, attempt)).find(is_free) else {
+            let Some(place) = (0..ATTEMPTS).map(|attempt| self.at([sample, count], attempt)).find(is_free) else {
                 return Ok(None);
             };
             grid.insert(place.position(self.mesh).as_vec3().into());
@@ -194,9 +194,9 @@ mod tests {
     }
 
     fn uniform(mesh: &Mesh, count: usize) -> Vec<SurfacePoint> {
-        let new = |job: &Job| RandomPoints::new(job, mesh, &Even, 77, count);
+        let new = |job: &Job| RandomPoints::new(job, mesh, &Even, 77);
         let throws = Context::new(1).unwrap().run(None, new).unwrap();
-        (0..count).map(|sample| throws.at(sample, 0)).collect()
+        (0..count).map(|sample| throws.at([sample, count], 0)).collect()
     }
 
     fn spread_of(mesh: &Mesh, places: &[SurfacePoint], floor: f64) -> Option<Vec<SurfacePoint>> {

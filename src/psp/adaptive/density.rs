@@ -144,14 +144,24 @@ impl<'a> DensityField<'a> {
     }
 
     /// The integral over the surface, from the values at the centres of about [`PIECES`] pieces.
-    pub fn integral(&self, job: &Job) -> Result<f64> {
+    fn integral(&self, job: &Job) -> Result<f64> {
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         let parts = job.map(chunks.len(), |chunk| {
             let mut sum = 0.0;
-            self.for_each_piece(chunks.range(chunk), |_, integral| sum += integral);
+            self.for_each_piece(chunks.range(chunk), |_, _, integral| sum += integral);
             sum
         })?;
         Ok(parts.iter().sum())
+    }
+
+    /// The density at the centre of each piece of the surface over which it is integrated, and its share of the integral.
+    pub fn at_pieces(&self, job: &Job) -> Result<Vec<(f64, f64)>> {
+        let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
+        job.concat(chunks.len(), |chunk| {
+            let mut pieces = Vec::new();
+            self.for_each_piece(chunks.range(chunk), |_, density, integral| pieces.push((density, integral)));
+            pieces
+        })
     }
 
     /// The pieces of the surface over which it is integrated, with their shares of the integral.
@@ -159,12 +169,12 @@ impl<'a> DensityField<'a> {
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         job.concat(chunks.len(), |chunk| {
             let mut pieces = Vec::new();
-            self.for_each_piece(chunks.range(chunk), |piece, integral| pieces.push((piece, integral)));
+            self.for_each_piece(chunks.range(chunk), |piece, _, integral| pieces.push((piece, integral)));
             pieces
         })
     }
 
-    fn for_each_piece(&self, triangles: std::ops::Range<usize>, mut each: impl FnMut(Fragment, f64)) {
+    fn for_each_piece(&self, triangles: std::ops::Range<usize>, mut each: impl FnMut(Fragment, f64, f64)) {
         let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
         let (mut slices, asks_places) = (Vec::new(), self.slope().is_some());
         for (triangle, area) in self.mesh.triangles_with_area(triangles) {
@@ -173,7 +183,7 @@ impl<'a> DensityField<'a> {
                 for part in slice.parts_up_to(self.mesh, longest) {
                     let place = if asks_places { part.shape(self.mesh).centre.to_array() } else { [0.0; 3] };
                     let density = self.at(triangle, part.at([1.0 / 3.0; 2]), place).unwrap_or(0.0);
-                    each(part, density * (area * part.share()));
+                    each(part, density, density * (area * part.share()));
                 }
             }
         }
