@@ -247,6 +247,16 @@ fn samples_where_none_are_wanted_leave_with_the_first_step() {
     }
 }
 
+/// Needles, a billion times as long as high, whose integral is a sum over as few places as that of any mesh.
+#[test]
+fn needles_are_integrated_over_few_places() {
+    let positions = vec![[0.0, 0.0, 0.0], [1e9, 0.0, 0.0], [0.0, 1e-3, 0.0], [1e9, 0.0, 1e-2], [5.0, 7.0, 1.0]];
+    let mesh = Mesh::new(positions, vec![[0, 1, 2], [0, 1, 3], [0, 2, 4]]).unwrap();
+    let at = |[x, ..]: [f64; 3]| 1.0 + x.abs();
+    let (relaxed, _) = run_steps(&mesh, &random(&mesh, 50, 12), Density::AtVertices(&at), 5);
+    assert_eq!(relaxed.len(), 50);
+}
+
 /// Coincident samples, a few samples, soups, and densities of a few places.
 #[test]
 fn awkward_samples_and_meshes_are_relaxed() {

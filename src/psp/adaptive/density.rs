@@ -145,10 +145,11 @@ impl<'a> DensityField<'a> {
 
     /// The integral over the surface, from the values at the centres of about [`PIECES`] pieces.
     fn integral(&self, job: &Job) -> Result<f64> {
+        let longest = self.piece_length();
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         let parts = job.map(chunks.len(), |chunk| {
             let mut sum = 0.0;
-            self.for_each_piece(chunks.range(chunk), |_, _, integral| sum += integral);
+            self.for_each_piece(chunks.range(chunk), longest, |_, _, integral| sum += integral);
             sum
         })?;
         Ok(parts.iter().sum())
@@ -156,26 +157,47 @@ impl<'a> DensityField<'a> {
 
     /// The density at the centre of each piece of the surface over which it is integrated, and its share of the integral.
     pub fn at_pieces(&self, job: &Job) -> Result<Vec<(f64, f64)>> {
+        let longest = self.longest_of_few();
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         job.concat(chunks.len(), |chunk| {
             let mut pieces = Vec::new();
-            self.for_each_piece(chunks.range(chunk), |_, density, integral| pieces.push((density, integral)));
+            let add = |_, density, integral| pieces.push((density, integral));
+            self.for_each_piece(chunks.range(chunk), longest, add);
             pieces
         })
     }
 
     /// The pieces of the surface over which it is integrated, with their shares of the integral.
     pub fn pieces(&self, job: &Job) -> Result<Vec<(Fragment, f64)>> {
+        let longest = self.longest_of_few();
         let chunks = chunks_of(self.mesh.triangles().len(), CHUNK);
         job.concat(chunks.len(), |chunk| {
             let mut pieces = Vec::new();
-            self.for_each_piece(chunks.range(chunk), |piece, _, integral| pieces.push((piece, integral)));
+            let add = |piece, _, integral| pieces.push((piece, integral));
+            self.for_each_piece(chunks.range(chunk), longest, add);
             pieces
         })
     }
 
-    fn for_each_piece(&self, triangles: std::ops::Range<usize>, mut each: impl FnMut(Fragment, f64, f64)) {
-        let longest = (4.0 * self.mesh.area() / PIECES).sqrt();
+    /// The length of pieces of about equal area.
+    fn piece_length(&self) -> f64 {
+        (4.0 * self.mesh.area() / PIECES).sqrt()
+    }
+
+    /// The same where all pieces are kept: needles, whose pieces are far shorter than they are long, have no more of them
+    /// than a few times [`PIECES`].
+    fn longest_of_few(&self) -> f64 {
+        let length = |(triangle, _)| Fragment::whole(triangle).shape(self.mesh).longest;
+        let all: f64 = self.mesh.triangles_with_area(0..self.mesh.triangles().len()).map(length).sum();
+        self.piece_length().max(all / (4.0 * PIECES))
+    }
+
+    fn for_each_piece(
+        &self,
+        triangles: std::ops::Range<usize>,
+        longest: f64,
+        mut each: impl FnMut(Fragment, f64, f64),
+    ) {
         let (mut slices, asks_places) = (Vec::new(), self.slope().is_some());
         for (triangle, area) in self.mesh.triangles_with_area(triangles) {
             slice(self.mesh, triangle, longest, &mut slices);
