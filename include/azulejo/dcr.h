@@ -5,6 +5,7 @@
 #define AZULEJO_DCR_H
 
 #include "base.h"
+#include "psp.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -82,8 +82,12 @@ fn the_committed_headers_are_the_generated_ones() {
     for header in &HEADERS {
         let topics: Vec<String> = header.sources.iter().map(|source| topic(crate_root, source)).collect();
         declared += topics.iter().map(|topic| topic.matches("azulejo_status azulejo_").count()).sum::<usize>();
-        let includes =
-            if header.name == "base" { "#include <stddef.h>\n#include <stdint.h>\n" } else { "#include \"base.h\"\n" };
+        let includes = match header.name {
+            "base" => "#include <stddef.h>\n#include <stdint.h>\n",
+            // For densities on meshes.
+            "dcr" => "#include \"base.h\"\n#include \"psp.h\"\n",
+            _ => "#include \"base.h\"\n",
+        };
         let page = format!("/* {}\n * {GENERATED} */\n", header.page);
         let linkage = |brace| format!("#ifdef __cplusplus\n{brace}\n#endif\n");
         let body = [&linkage("extern \"C\" {"), &topics.join("\n"), &linkage("}")].map(String::as_str).join("\n");
