@@ -20,7 +20,7 @@ pub struct Entry {
 }
 
 /// The number of levels.
-pub const LEVELS: u32 = 7;
+pub const LEVELS: u32 = 4;
 
 /// Points in cells as wide as the radius of a search.
 pub struct MovingGrid3 {

@@ -18,7 +18,8 @@ use crate::simd::Position;
 
 use glam::{DVec3, Vec3};
 
-/// The largest grade over the least one of most samples: as where places ask for 4,096 times as many samples as others.
+/// The largest grade over the least one of most samples: as where places ask for 64 times as many samples as others.
+/// Beside places of density 0 it would grow without bound, and samples that stray there would clear their surroundings.
 pub const WIDEST: f32 = (1u32 << (LEVELS - 1)) as f32;
 
 /// The share of all samples whose grades may be below the least one: they are on a few peaks of the density.
