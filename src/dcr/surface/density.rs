@@ -20,7 +20,7 @@ const BYTES_PER_PIECE: f64 = 170.0;
 ///
 /// * The *local spacing* is `d_max` for the mean density of the mesh, as 1 / sqrt(density) elsewhere, but at most 8
 ///   times that at the density that a thousandth of the samples exceed. [`Report::rho`] is the smallest of all
-/// distances over the mean of the spacings   of the two samples, [`Report::motion`] is in units of `d_max`.
+///   distances over the mean of the spacings of the two samples, [`Report::motion`] is in units of `d_max`.
 /// * Where the density is 0 no sample ends, unless no step is made; samples that begin there are thrown at random over
 ///   the surface, by the density.
 /// * Samples whose numbers are far from the integral of the density are redistributed by it.
