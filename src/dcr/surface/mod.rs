@@ -40,7 +40,7 @@ pub use remeshing::{RemeshReport, Triangulation, remesh, triangulate};
 
 use glam::DVec2;
 
-use crate::dcr::relaxation::{Limits, Relaxation, Steps, run};
+use crate::dcr::relaxation::{Relaxation, Steps, run};
 use crate::dcr::surface::apart::Floor;
 use crate::dcr::surface::connected::ConnectedMesh;
 use crate::dcr::surface::grading::{Even, Grading, smallest_relative};
@@ -107,10 +107,9 @@ pub fn relaxed<G: Grading>(
     let spacing = hexagonal_distance(mesh, triangles.len());
     let places = enter(triangles, barycentrics);
     let mut set = context.run(None, |job| begin(job, &connected, grading, spacing, &places, options))?;
-    let limits = Limits { max_iterations: options.max_iterations, tolerance: options.tolerance };
     run(
         context,
-        limits,
+        options.limits(),
         &mut set,
         progress,
         |_| {},

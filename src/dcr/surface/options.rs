@@ -1,7 +1,7 @@
 //! The options and the report of a relaxation on a surface.
 
-use crate::dcr::relaxation::Stopped;
-use crate::error::{Error, Result};
+use crate::dcr::relaxation::{Limits, Stopped};
+use crate::error::Result;
 use crate::setters::setters;
 
 /// The options of [`relax`](fn@super::relax).
@@ -29,10 +29,11 @@ impl Default for Options {
 impl Options {
     /// Refuses values out of their range.
     pub fn check(&self) -> Result<()> {
-        if !(0.0..).contains(&self.tolerance) {
-            return Err(Error::invalid("tolerance", format!("{} is not at least 0", self.tolerance)));
-        }
-        Ok(())
+        self.limits().check()
+    }
+
+    pub(super) fn limits(&self) -> Limits {
+        Limits { max_iterations: self.max_iterations, tolerance: self.tolerance }
     }
 }
 
